@@ -147,6 +147,17 @@ static tn_status reply_spread(tn_session *session, const tn_count_request *reque
     return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
 }
 
+/* After counting by a measure, which came to that status: the answer, which takes the spread over, or what is wrong. */
+static tn_status end_spread(tn_session *session, const tn_count_request *request, tn_spread *spread, tn_status status,
+                            const tn_error *error, tn_reply *answer)
+{
+    tn_session_ends(session);
+    if (status == TN_OK)
+        return reply_spread(session, request, spread, answer);
+    free_spread(spread);
+    return tn_session_fail(session, error);
+}
+
 /* How the plans of a library are spread over the values of a measure. */
 static tn_status count_plans_by(tn_session *session, const tn_count_request *request, tn_reply *answer)
 {
@@ -163,11 +174,7 @@ static tn_status count_plans_by(tn_session *session, const tn_count_request *req
         return TN_MEMORY;
     tn_session_begins(session, "counting by the measure");
     status = tn_spread_make(spread, ready, index, &error);
-    tn_session_ends(session);
-    if (status == TN_OK)
-        return reply_spread(session, request, spread, answer);
-    free_spread(spread);
-    return tn_session_fail(session, &error);
+    return end_spread(session, request, spread, status, &error, answer);
 }
 
 /* ---- counts the houses of a library, or those on one plan */
@@ -185,16 +192,11 @@ static tn_status count_by(tn_numbered *n, const tn_count_request *request, const
         return TN_MEMORY;
     tn_session_begins(session, "counting by the measure");
     status = tn_numbered_spread(n, plan, measure, spread, &error);
-    tn_session_ends(session);
-    if (status == TN_OK)
-        return reply_spread(session, request, spread, answer);
-    tn_spread_clear(spread);
-    free(spread);
-    return tn_session_fail(session, &error);
+    return end_spread(session, request, spread, status, &error, answer);
 }
 
-static tn_status count_houses_count_all(tn_numbered *n, const tn_count_request *request, const tn_plan *plan,
-                                        tn_reply *answer)
+static tn_status count_all_houses(tn_numbered *n, const tn_count_request *request, const tn_plan *plan,
+                                  tn_reply *answer)
 {
     tn_error error;
     tn_status status = tn_reply_new(&tn_message_counted_houses, answer, &error);
@@ -215,7 +217,7 @@ static tn_status count_houses(tn_session *session, const tn_count_request *reque
     tn_plan on;
     tn_status status = tn_numbered_open_on(&n, session, &request->subject, request->plan, &on);
     if (status == TN_OK)
-        status = (request->by ? count_by : count_houses_count_all)(&n, request, request->plan ? &on : NULL, answer);
+        status = (request->by ? count_by : count_all_houses)(&n, request, request->plan ? &on : NULL, answer);
     free(on.trays);
     tn_numbered_close(&n);
     return status;

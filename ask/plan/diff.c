@@ -20,20 +20,20 @@
 /* ---- what an edit does to a library of houses */
 
 /* What is removed, added and kept of one length. */
-static void diff_houses_count_length(const tn_compared_houses *c, size_t k, tn_compared_counts *counts)
+static void count_houses_of_length(const tn_compared_houses *c, size_t k, tn_compared_counts *counts)
 {
     mpz_set(counts->kept, c->kept[k]);
     mpz_sub(counts->removed, c->before[k], c->kept[k]);
     mpz_sub(counts->added, c->after[k], c->kept[k]);
 }
 
-static tn_status diff_houses_set_counts(const tn_compared_houses *c, tn_compared *to, tn_error *error)
+static tn_status set_house_counts(const tn_compared_houses *c, tn_compared *to, tn_error *error)
 {
     tn_status status = TN_NEW_LIST(compared_length, to->by_length, (size_t)c->high - c->low + 1, error);
     for (size_t k = 0; status == TN_OK && k < to->by_length.count; k++) {
         tn_compared_counts *counts = &to->by_length.items[k].counts;
         to->by_length.items[k].length = c->low + k;
-        diff_houses_count_length(c, k, counts);
+        count_houses_of_length(c, k, counts);
         mpz_add(to->total.removed, to->total.removed, counts->removed);
         mpz_add(to->total.added, to->total.added, counts->added);
         mpz_add(to->total.kept, to->total.kept, counts->kept);
@@ -64,7 +64,7 @@ tn_status tn_diff_houses_answer(const tn_diff_request *request, tn_compared_hous
     const tn_numbered *before = &c->sides[0].n, *after = &c->sides[1].n;
     to->before = (tn_compared_library){request->before, tn_text(before->form.module, before->record->name)};
     to->after = (tn_compared_library){after->session->opened->path, tn_text(after->form.module, after->record->name)};
-    tn_status status = diff_houses_set_counts(c, to, error);
+    tn_status status = set_house_counts(c, to, error);
     if (status == TN_OK)
         status = TN_NEW_LIST(compared_clause, to->clauses, c->edit_count, error);
     for (size_t i = 0; status == TN_OK && i < c->edit_count; i++)
@@ -72,8 +72,8 @@ tn_status tn_diff_houses_answer(const tn_diff_request *request, tn_compared_hous
     return status;
 }
 
-static tn_status diff_houses_compare(tn_session *session, const tn_diff_request *r, tn_compared_houses *c,
-                                     tn_reply *answer)
+static tn_status compare_all_houses(tn_session *session, const tn_diff_request *r, tn_compared_houses *c,
+                                    tn_reply *answer)
 {
     const tn_compared_options options = {.shown = r->has_sample ? (size_t)r->sample : TN_DIFF_SHOWN,
                                          .seed = r->seed,
@@ -95,7 +95,7 @@ tn_status tn_diff_houses(tn_session *session, tn_session *other, const tn_diff_r
     if (status == TN_OK)
         status = tn_numbered_open(&c.sides[1].n, session, &settings);
     if (status == TN_OK)
-        status = diff_houses_compare(session, request, &c, answer);
+        status = compare_all_houses(session, request, &c, answer);
     tn_houses_compare_clear(&c);
     tn_numbered_close(&c.sides[0].n);
     tn_numbered_close(&c.sides[1].n);
@@ -212,10 +212,9 @@ static tn_status tell_all(weights_side *sides, telling *t)
 }
 
 /* read: read_weights or read_preferences. */
-static tn_status diff_leanings_compare(const tn_ready_library *const ready[2],
-                                       tn_status (*read)(const tn_module *, const tn_library_record *, weights_side *,
-                                                         tn_error *),
-                                       telling *t)
+static tn_status
+compare_weights(const tn_ready_library *const ready[2],
+                tn_status (*read)(const tn_module *, const tn_library_record *, weights_side *, tn_error *), telling *t)
 {
     weights_side sides[2] = {0};
     tn_status status = TN_OK;
@@ -234,9 +233,9 @@ tn_status tn_diff_leanings(const tn_ready_library *before, const tn_ready_librar
     const tn_ready_library *const ready[2] = {before, after};
     telling weights = {(tn_list *)&compared->weights, error, false},
             preferences = {(tn_list *)&compared->preferences, error, false};
-    tn_status status = diff_leanings_compare(ready, read_weights, &weights);
+    tn_status status = compare_weights(ready, read_weights, &weights);
     if (status == TN_OK)
-        status = diff_leanings_compare(ready, read_preferences, &preferences);
+        status = compare_weights(ready, read_preferences, &preferences);
     compared->has_weights = weights.any;
     compared->has_preferences = preferences.any;
     return status;

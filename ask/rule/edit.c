@@ -6,6 +6,7 @@
 
 #include "ask/rule/rule.h"
 #include "ask/session/questions.h"
+#include "compiler/common/text_lines.h"
 #include "driver/rule/tray_fields.h"
 #include "runtime/base/utf8.h"
 
@@ -183,28 +184,28 @@ static tn_status compile(tn_session *session, const char *rule, tn_rule_edited *
 
 /* ---- the answer */
 
-static void position_of(const tn_rule_text *text, uint32_t offset, tn_text_position *to)
+/* A byte order mark is no part of the text. */
+static void position_of(const tn_lines *lines, size_t mark, uint32_t offset, tn_text_position *to)
 {
-    uint32_t line = (uint32_t)tn_text_mark(text->text, text->size);
-    for (uint32_t i = line; i < offset; i++) {
-        if (text->text[i] != '\n')
-            continue;
-        to->line++;
-        line = i + 1;
-    }
-    to->character = offset > line ? tn_utf16_units(text->text + line, offset - line) : 0;
+    size_t line, character;
+    tn_lines_place(lines, offset > mark ? offset - mark : 0, &line, &character);
+    to->line = line;
+    to->character = character;
 }
 
 static tn_status give_edit(const tn_rule_text *text, const tn_rule_edited *made, tn_changed_rule *to, tn_error *error)
 {
     if (made->changed.begin == made->changed.end && !*made->insert)
         return TN_OK;
+    size_t mark = tn_text_mark(text->text, text->size);
     tn_text_edit *edit = TN_ADD(text_edit, to->edits, error);
-    if (!edit)
-        return TN_MEMORY;
+    tn_lines lines;
+    if (!edit || !tn_lines_make(&lines, text->text + mark, text->size - mark))
+        return tn_fail_memory(error);
     edit->newText = strdup(made->insert);
-    position_of(text, made->changed.begin, &edit->range.start);
-    position_of(text, made->changed.end, &edit->range.end);
+    position_of(&lines, mark, made->changed.begin, &edit->range.start);
+    position_of(&lines, mark, made->changed.end, &edit->range.end);
+    tn_lines_clear(&lines);
     return edit->newText ? TN_OK : tn_fail_memory(error);
 }
 

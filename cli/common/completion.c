@@ -30,7 +30,7 @@ static void write_options(FILE *out)
     fputs("    esac\n}\n", out);
 }
 
-static void completion_bash_write_argument(const tn_command *command, const tn_option *option, FILE *out)
+static void write_bash_argument(const tn_command *command, const tn_option *option, FILE *out)
 {
     char before[80];
     snprintf(before, sizeof before, "%s/", command->name);
@@ -54,11 +54,11 @@ static void write_arguments(FILE *out)
           out);
     for (size_t i = 0; i < tn_commands_count; i++)
         for (size_t j = 0; j < tn_option_total(tn_commands[i]); j++)
-            completion_bash_write_argument(tn_commands[i], tn_option_at(tn_commands[i], j), out);
+            write_bash_argument(tn_commands[i], tn_option_at(tn_commands[i], j), out);
     fputs("    esac\n}\n", out);
 }
 
-static void completion_bash_write_operands(FILE *out)
+static void write_bash_operands(FILE *out)
 {
     fputs("\n# The words that a command's first operand can be, where it is not a file.\n"
           "_tartan_operand() {\n    case $1 in\n",
@@ -128,13 +128,13 @@ void tn_completion_bash(FILE *out)
     fputs("'\n", out);
     write_options(out);
     write_arguments(out);
-    completion_bash_write_operands(out);
+    write_bash_operands(out);
     fputs(rest, out);
 }
 
 /* ---- completion for fish */
 
-static void completion_fish_write_quoted(const char *text, size_t size, FILE *out)
+static void write_fish_quoted(const char *text, size_t size, FILE *out)
 {
     fputc('\'', out);
     for (size_t i = 0; i < size; i++) {
@@ -161,16 +161,16 @@ static void write_option(const tn_command *command, const tn_option *option, FIL
         fputc('\'', out);
     }
     fputs(" -d ", out);
-    completion_fish_write_quoted(option->help, tn_description_size(option->help), out);
+    write_fish_quoted(option->help, tn_description_size(option->help), out);
     fputc('\n', out);
 }
 
-static void completion_fish_write_command(const tn_command *command, FILE *out)
+static void write_fish_command(const tn_command *command, FILE *out)
 {
     fprintf(out, "complete -c tartan -n __tartan_first -f -a %s -d ", command->name);
-    completion_fish_write_quoted(command->summary, strlen(command->summary), out);
+    write_fish_quoted(command->summary, strlen(command->summary), out);
     fprintf(out, "\ncomplete -c tartan -n '__tartan_command help' -f -a %s -d ", command->name);
-    completion_fish_write_quoted(command->summary, strlen(command->summary), out);
+    write_fish_quoted(command->summary, strlen(command->summary), out);
     fputc('\n', out);
     if (tn_operand_words(command, NULL, NULL)) {
         fprintf(out, "complete -c tartan -n '__tartan_operand %s' -a '", command->name);
@@ -199,13 +199,13 @@ void tn_completion_fish(FILE *out)
           "complete -c tartan -n __tartan_first -l help -s h -d 'list the commands'\n",
           out);
     for (size_t i = 0; i < tn_commands_count; i++)
-        completion_fish_write_command(tn_commands[i], out);
+        write_fish_command(tn_commands[i], out);
 }
 
 /* ---- completion for zsh */
 
 /* Writes text inside single quotes, with a backslash before what has a meaning in a row of _arguments or _describe. */
-static void completion_zsh_write_quoted(const char *text, size_t size, FILE *out)
+static void write_zsh_quoted(const char *text, size_t size, FILE *out)
 {
     for (size_t i = 0; i < size; i++) {
         if (text[i] == '\'')
@@ -217,13 +217,13 @@ static void completion_zsh_write_quoted(const char *text, size_t size, FILE *out
     }
 }
 
-static void completion_zsh_write_argument(const tn_option *option, FILE *out)
+static void write_zsh_argument(const tn_option *option, FILE *out)
 {
     tn_completes what = tn_option_completes(option);
     if (what == TN_COMPLETES_NOTHING)
         return;
     fputc(':', out);
-    completion_zsh_write_quoted(option->argument, strlen(option->argument), out);
+    write_zsh_quoted(option->argument, strlen(option->argument), out);
     fputc(':', out);
     if (what == TN_COMPLETES_WORDS) {
         fputc('(', out);
@@ -249,13 +249,13 @@ static void write_row(const tn_option *option, FILE *out)
         fprintf(out, "'(-%c --%s)'{-%c%s,--%s%s}'", option->letter, option->name, option->letter, letter_end,
                 option->name, end);
     fputc('[', out);
-    completion_zsh_write_quoted(option->help, tn_description_size(option->help), out);
+    write_zsh_quoted(option->help, tn_description_size(option->help), out);
     fputc(']', out);
-    completion_zsh_write_argument(option, out);
+    write_zsh_argument(option, out);
     fputc('\'', out);
 }
 
-static void completion_zsh_write_command(const tn_command *command, FILE *out)
+static void write_zsh_command(const tn_command *command, FILE *out)
 {
     fprintf(out, "    %s)\n      _arguments -s -S", command->name);
     for (size_t i = 0; i < tn_option_total(command); i++)
@@ -264,7 +264,7 @@ static void completion_zsh_write_command(const tn_command *command, FILE *out)
     fputs(" \\\n        '*:file:_files'\n      ;;\n", out);
 }
 
-static void completion_zsh_write_operands(FILE *out)
+static void write_zsh_operands(FILE *out)
 {
     fputs("_tartan_operand() {\n  local -a known\n  case $command in\n", out);
     for (size_t i = 0; i < tn_commands_count; i++) {
@@ -280,11 +280,11 @@ static void completion_zsh_write_operands(FILE *out)
 void tn_completion_zsh(FILE *out)
 {
     fputs("#compdef tartan\n# Completion of tartan for zsh, written by `tartan help --completion zsh`.\n\n", out);
-    completion_zsh_write_operands(out);
+    write_zsh_operands(out);
     fputs("_tartan() {\n  local -a commands\n  commands=(\n", out);
     for (size_t i = 0; i < tn_commands_count; i++) {
         fprintf(out, "    '%s:", tn_commands[i]->name);
-        completion_zsh_write_quoted(tn_commands[i]->summary, strlen(tn_commands[i]->summary), out);
+        write_zsh_quoted(tn_commands[i]->summary, strlen(tn_commands[i]->summary), out);
         fputs("'\n", out);
     }
     fputs("    'help:explain a command'\n  )\n"
@@ -300,7 +300,7 @@ void tn_completion_zsh(FILE *out)
           "    help) (( CURRENT == 2 )) && _describe -t commands command commands ;;\n",
           out);
     for (size_t i = 0; i < tn_commands_count; i++)
-        completion_zsh_write_command(tn_commands[i], out);
+        write_zsh_command(tn_commands[i], out);
     /* Autoloaded, the file is the function's body; sourced, it registers the function. */
     fputs("  esac\n}\n\n"
           "if [[ $funcstack[1] == _tartan ]]; then\n  _tartan \"$@\"\nelse\n  compdef _tartan tartan\nfi\n",

@@ -57,7 +57,7 @@ static bool choose_answer(tn_job *job, tn_answer_format *answer)
     return true;
 }
 
-static bool new_answers_check_options(tn_job *job)
+static bool check_answer_options(tn_job *job)
 {
     const tn_shards_settings *settings = tn_shards_settings_of(job);
     tn_diagnostics *list = tn_job_diagnostics(job);
@@ -172,7 +172,7 @@ static void make_set(tn_job *job, tn_shards_open *open)
 void tn_shards_new_answers(tn_job *job, tn_shards_open *open)
 {
     tn_error error;
-    if (!new_answers_check_options(job) || !choose_answer(job, &open->set.inputs.answer))
+    if (!check_answer_options(job) || !choose_answer(job, &open->set.inputs.answer))
         return;
     if (!describe(job, &open->set))
         tn_job_fail(job, (tn_fail_memory(&error), &error));

@@ -7,6 +7,7 @@
 #include "cli/common/made_outputs.h"
 #include "cli/common/option_rows.h"
 #include "compiler/common/lexical.h"
+#include "compiler/common/text_lines.h"
 
 typedef struct rule_settings {
     tn_settings common;
@@ -114,32 +115,24 @@ static tn_rule_edit_request request_of(tn_job *job)
                                   .before = s->before};
 }
 
-/* The byte at a place that counts UTF-16 units. */
-static size_t byte_at(const char *text, size_t size, const tn_text_position *at)
+/* The file's text with the edits, which are in its order. False where out of memory. */
+static bool write_changed(const tn_source *source, const tn_changed_rule *changed, FILE *out)
 {
-    size_t byte = strncmp(text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
-    for (uint64_t line = 0; line < at->line && byte < size; byte++)
-        line += text[byte] == '\n';
-    for (uint64_t units = 0; units < at->character && byte < size;) {
-        size_t character = tn_character_size(text + byte, size - byte);
-        units += character == 4 ? 2 : 1;
-        byte += character;
-    }
-    return byte;
-}
-
-/* The file's text with the edits, which are in its order. */
-static void write_changed(const tn_source *source, const tn_changed_rule *changed, FILE *out)
-{
-    size_t at = 0;
+    size_t mark = tn_text_mark(source->text, source->size), at = 0;
+    tn_lines lines;
+    if (!tn_lines_make(&lines, source->text + mark, source->size - mark))
+        return false;
+    fwrite(source->text, 1, mark, out);
     for (size_t i = 0; i < changed->edits.count; i++) {
         const tn_text_edit *edit = &changed->edits.items[i];
-        size_t begin = byte_at(source->text, source->size, &edit->range.start);
-        fwrite(source->text + at, 1, begin - at, out);
+        const tn_text_position *start = &edit->range.start, *end = &edit->range.end;
+        fwrite(lines.text + at, 1, tn_lines_offset(&lines, start->line, start->character) - at, out);
         fputs(edit->newText, out);
-        at = byte_at(source->text, source->size, &edit->range.end);
+        at = tn_lines_offset(&lines, end->line, end->character);
     }
-    fwrite(source->text + at, 1, source->size - at, out);
+    fwrite(lines.text + at, 1, lines.size - at, out);
+    tn_lines_clear(&lines);
+    return true;
 }
 
 static void deliver(tn_job *job, const tn_reply *answer)
@@ -155,11 +148,19 @@ static void deliver(tn_job *job, const tn_reply *answer)
     }
     if (!tn_job_output(job, settings->output, &output))
         return;
+    bool written = true;
     if (settings->json)
         tn_job_write_json(answer, output.stream);
     else
-        write_changed(&job->opened.compilation.sources.files[0], changed, output.stream);
-    tn_job_commit(job, &output);
+        written = write_changed(&job->opened.compilation.sources.files[0], changed, output.stream);
+    if (written) {
+        tn_job_commit(job, &output);
+        return;
+    }
+    tn_error error;
+    tn_fail_memory(&error);
+    tn_job_fail(job, &error);
+    tn_output_discard(&output);
 }
 
 static void edit(tn_job *job)

@@ -16,7 +16,7 @@
 
 /* ---- operands */
 
-static bool verify_code_is_string(const tn_module *module, int64_t string)
+static bool is_string(const tn_module *module, int64_t string)
 {
     return string < (int64_t)module->strings_size && (string == 0 || module->strings[string - 1] == '\0');
 }
@@ -28,9 +28,8 @@ static tn_status check_operand(const tn_checker *checker, const tn_slot *slot, i
     case TN_SLOT_F64:
         return isfinite(tn_double_of((uint64_t)value)) ? TN_OK : tn_refuse(checker, "a number that is not finite");
     case TN_SLOT_STRING:
-        return verify_code_is_string(checker->module, value)
-                   ? TN_OK
-                   : tn_refuse(checker, "there is no text at %u", (unsigned)value);
+        return is_string(checker->module, value) ? TN_OK
+                                                 : tn_refuse(checker, "there is no text at %u", (unsigned)value);
     case TN_SLOT_INDEX:
         if (value < (int64_t)checker->module->tables[slot->section].count)
             return TN_OK;
@@ -249,11 +248,6 @@ static tn_status check_strings(const tn_checker *checker)
 }
 
 /* A string begins where another ends: no string is the tail of another. */
-static bool verify_records_is_string(const tn_module *module, tn_string string)
-{
-    return string < module->strings_size && (string == 0 || module->strings[string - 1] == '\0');
-}
-
 static tn_status check_texts(const tn_column *column)
 {
     const tn_module *module = column->checker->module;
@@ -261,7 +255,7 @@ static tn_status check_texts(const tn_column *column)
     size_t most = (size_t)member->high;
     for (size_t i = 0; i < column->count; i++) {
         tn_string text = value_at(column, i, member);
-        if (!verify_records_is_string(module, text))
+        if (!is_string(module, text))
             return refuse(column, i, "%s is no string", member->name);
         if (text == 0 && member->low > 0)
             return refuse(column, i, "%s is empty", member->name);
@@ -379,7 +373,7 @@ static tn_status measure_sources(tn_checker *checker)
     const tn_module *module = checker->module;
     size_t left = checker->limits->bytes < UINT32_MAX ? checker->limits->bytes : UINT32_MAX - 1;
     for (size_t i = 0; i < module->SOURCE_count; i++) {
-        if (!verify_records_is_string(module, module->SOURCE_records[i].text))
+        if (!is_string(module, module->SOURCE_records[i].text))
             return tn_refuse(checker, "source %zu: its text is not a string", i);
         size_t size = strnlen(tn_text(module, module->SOURCE_records[i].text), left + 1);
         if (size > left)

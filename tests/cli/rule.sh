@@ -57,6 +57,12 @@ edited spread --edit remove
 edited mixed --edit condition --part 5 --text 'n > 1'
 edited more --edit text --part 5 --text 'trays > 3'
 edited lone --edit new --at 400"
+golden ends "cd $scratch
+printf 'schema s { w = a | b }\\rrule r = tray(a) # é\\rrule q = (r) and tray(b)\\r' >returns.plan
+\$TARTAN rule returns.plan q --edit wrap --part 2 --by not | tr '\\r' '\\n'
+\$TARTAN rule returns.plan q --edit wrap --part 2 --by not --json
+printf '\\xef\\xbb\\xbfschema s { w = a | b }\\r\\nrule r = tray(a)\\r\\n' >marked.plan
+\$TARTAN rule marked.plan r --edit wrap --by not | od -An -c | tail -3"
 golden none "cd $scratch
 edited narow
 edited narrow --edit wrap
