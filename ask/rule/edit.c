@@ -8,7 +8,7 @@
 #include "ask/session/questions.h"
 #include "compiler/common/text_lines.h"
 #include "driver/rule/tray_fields.h"
-#include "runtime/base/utf8.h"
+#include "runtime/base/nearest.h"
 
 /* In the order of the request's words. */
 typedef enum asked_operation {
@@ -81,6 +81,20 @@ static tn_status check_request(tn_session *session, const tn_rule_edit_request *
 
 /* ---- the edit */
 
+/* Says that the trays have no such field, and which they have. */
+static tn_status refuse_field(tn_session *session, const tn_schema *schema, const char *field)
+{
+    const char **names = calloc((size_t)schema->field_count + 1, sizeof *names);
+    char all[400] = "", help[440];
+    for (uint32_t i = 0; names && i < schema->field_count; i++)
+        names[i] = tn_text(schema->module, schema->fields[i].name);
+    if (names)
+        tn_word_list(names, schema->field_count, all, sizeof all);
+    snprintf(help, sizeof help, "their fields are %s", all);
+    free(names);
+    return tn_session_refuse(session, *all ? help : NULL, "the trays have no field `%.100s`", field);
+}
+
 /* A click on a sign becomes the edit that it means. */
 static tn_status take_step(tn_session *session, const tn_rule_edit_request *r, tn_rule_edit *edit, char **text,
                            char why[TN_WHY_MAX])
@@ -90,7 +104,7 @@ static tn_status take_step(tn_session *session, const tn_rule_edit_request *r, t
     tn_status status = tn_asked_rule_find(session, r->rule, 0, &asked);
     uint32_t field = status == TN_OK ? tn_schema_field(asked.schema, r->field) : UINT32_MAX;
     if (status == TN_OK && field == UINT32_MAX)
-        status = tn_session_refuse(session, NULL, "the trays have no field `%.100s`", r->field);
+        status = refuse_field(session, asked.schema, r->field);
     else if (status == TN_OK && r->part >= asked.tree.count)
         snprintf(why, TN_WHY_MAX, "the rule has the parts 0 to %u", asked.tree.count - 1);
     else if (status == TN_OK) {

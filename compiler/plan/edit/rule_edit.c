@@ -8,6 +8,7 @@
 
 #include "compiler/plan/edit/rule_layout.h"
 #include "compiler/plan/edit/text_changes.h"
+#include "runtime/base/nearest.h"
 
 /* One edit on the way. */
 typedef struct editing {
@@ -212,7 +213,9 @@ static void wrap(editing *e)
     while (tn_rule_wraps[i] && strcmp(tn_rule_wraps[i], e->edit->by) != 0)
         i++;
     if (!tn_rule_wraps[i]) {
-        refuse(e, "there is no box `%.60s`", e->edit->by);
+        char all[160];
+        tn_word_list(tn_rule_wraps, i, all, sizeof all);
+        refuse(e, "there is no box `%.60s`: the boxes are %s", e->edit->by, all);
         return;
     }
     if (is_of_row(e->part.kind)) {
