@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import test, {after} from "node:test";
 import {writeFileSync} from "node:fs";
 import {join} from "node:path";
-import {ROWS, countOf, counted, done, folder, inspected, read, save, serve, tartan, text, visit, write} from "./studio.mjs";
+import {ROWS, countOf, counted, done, folder, inspected, openFile, read, save, serve, tartan, text, visit, write} from "./studio.mjs";
 
 after(done);
 
@@ -32,8 +32,7 @@ test("counts and differences are the command's", async (t) => {
   const path = folder(t, {"rows.plan": ROWS, "before.plan": ROWS});
   const {address} = await serve(t, path);
   const page = await visit(t, address);
-  await page.locator(".file-name").click();
-  await page.locator(".files").getByRole("button", {name: "rows.plan"}).click();
+  await openFile(page, "rows.plan");
   await counted(page, countOf(join(path, "rows.plan")).kept);
   await write(page, {over: "tray(hall, 3m)", typed: "tray(hall, width < 6m)"});
   const changed = ROWS.replace("tray(hall, 3m)", "tray(hall, width < 6m)");

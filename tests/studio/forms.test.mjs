@@ -5,7 +5,7 @@ import test, {after} from "node:test";
 import {readFileSync, writeFileSync} from "node:fs";
 import {dirname, join} from "node:path";
 import {fileURLToPath} from "node:url";
-import {PLAYGROUND, done, folder, inspected, read, serve, tartan, text, visit, write} from "./studio.mjs";
+import {PLAYGROUND, done, folder, inspected, openFile, read, serve, tartan, text, visit, write} from "./studio.mjs";
 
 after(done);
 
@@ -158,22 +158,18 @@ test("growth and boxes; a study that is evolved says so", async (t) => {
   });
   const {address} = await serve(t, path);
   const page = await visit(t, address);
-  const open = async (name) => {
-    await page.locator(".file-name").click();
-    await page.locator(".files").getByRole("button", {name}).click();
-  };
-  await open("square.hemls");
+  await openFile(page, "square.hemls");
   await page.locator(".form-size", {hasText: "289 vertices, 256 faces"}).waitFor();
   assert.deepEqual(await saved(page, "glb"), made(path, "grow", "square.hemls", "glb"));
   await page.locator(".form-number select").selectOption("5");
   await page.locator(".form-size", {hasText: "1,024 faces"}).waitFor();
-  await open("chair.solid");
+  await openFile(page, "chair.solid");
   await page.locator(".form-size", {hasText: "colours"}).waitFor();
   assert.deepEqual(await saved(page, "glb"), made(path, "mesh", "chair.solid", "glb"));
-  await open("canopy.study");
+  await openFile(page, "canopy.study");
   await page.locator(".form-size", {hasText: "561 vertices, 1,024 faces"}).waitFor();
   assert.deepEqual(await saved(page, "obj"), made(path, "grow", "canopy.study", "obj"));
-  await open("four.study");
+  await openFile(page, "four.study");
   await page.locator(".form-nothing", {hasText: "tartan evolve"}).waitFor();
   assert.equal(await page.locator(".form-stage").isVisible(), false);
 });

@@ -17,6 +17,7 @@ for (const width of [1280, 390])
       await page.locator(".file-name").click();
       await inspected(page, "the files");
       await page.locator(".files").getByRole("button", {name: "rows.plan"}).click();
+      await page.locator(".file-name", {hasText: "rows.plan"}).waitFor();
       await inspected(page, "the text");
       if (width < 860) await page.getByRole("button", {name: "Library", exact: true}).click();
       await counted(page, countOf(join(path, "rows.plan")).kept);

@@ -134,6 +134,13 @@ export async function counted(page, digits) {
   await page.locator("#count", {hasText: new RegExp(`^${text}$`)}).waitFor();
 }
 
+// Opens a file of the list, and waits until it is the one that is edited: another of the same text would look alike.
+export async function openFile(page, name) {
+  await page.locator(".file-name").click();
+  await page.locator(".files").getByRole("button", {name}).click();
+  await page.locator(".file-name", {hasText: name}).waitFor();
+}
+
 export const text = (page) => page.evaluate(() => document.querySelector(".editor").shadowRoot.querySelector(".cm-content").cmTile.root.view.state.doc.toString());
 
 // Types at the end of the line that has this text, or in its place.

@@ -32,6 +32,8 @@ export class Files {
   before: OpenFile | null = null; // the one of this folder that was shown before that of the standard library
   documents!: Documents;
   editor!: Editor;
+  private asked = "";
+  private reading = new Map<string, Promise<OpenFile | null>>();
 
   constructor(
     private connection: Connection,
@@ -106,9 +108,16 @@ export class Files {
 
   // ---- opening
 
+  // A file that is asked for while it is being read is read once.
   async load(path: string): Promise<OpenFile | null> {
     const known = this.documents.files.find((file) => file.path === path && !file.standard);
     if (known) return known;
+    const reading = this.reading.get(path) ?? this.read(path).finally(() => this.reading.delete(path));
+    this.reading.set(path, reading);
+    return reading;
+  }
+
+  private async read(path: string): Promise<OpenFile | null> {
     try {
       const {text, hash} = await this.connection.ask("tartan/read", {path});
       const file = new OpenFile(path, Text.of(text.split(/\r\n?|\n/)), text.replace(/\r\n?/g, "\n"), hash, this.folder.readOnly);
@@ -121,9 +130,11 @@ export class Files {
     }
   }
 
+  // Of files that are asked for one after the other, the last is shown, in whichever order they arrive.
   async open(path: string): Promise<void> {
+    this.asked = path;
     const file = await this.load(path);
-    if (!file) return;
+    if (!file || this.asked !== path) return;
     this.show(file);
     this.offerDraft(file);
   }
