@@ -103,7 +103,7 @@ tn_status tn_houses_search_of_point(tn_houses_search *s, size_t point, tn_house_
 {
     tn_houses_point(s->houses, point, s->values, s->count);
     judged j = {.n = &s->n, .each = each, .context = context};
-    return tn_houses_point_each(s->houses, point, s->n.variants, judge_house, &j, error);
+    return tn_houses_point_each(s->houses, point, judge_house, &j, error);
 }
 
 tn_status tn_houses_search_each(tn_houses_search *s, tn_house_each *each, void *context, tn_error *error)

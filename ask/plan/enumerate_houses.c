@@ -12,11 +12,8 @@ typedef struct house_list {
     mpz_t before;  /* houses on the plans before */
     mpz_t variant; /* of the next house on the plan in hand */
     bool bounded;
-    uint64_t given, limit;    /* those before the first are counted */
-    tn_house_variants *quick; /* plans are gone through in so many steps, before they are counted */
+    uint64_t given, limit; /* those before the first are counted */
 } house_list;
-
-enum { QUICK_STEPS = 1000000 };
 
 static bool is_done(const house_list *list)
 {
@@ -52,85 +49,21 @@ static bool find_variant(house_list *list, const mpz_t houses)
     return mpz_cmp(list->variant, houses) < 0;
 }
 
-/* Goes through the houses on a plan one by one: TN_LIMIT if that takes many steps, and what is given stays. */
-static tn_status list_through(tn_house_variants *variants, house_list *list, const tn_tray *trays, uint32_t length,
-                              mpz_t houses, tn_error *error)
-{
-    tn_house_counts counts;
-    tn_house_counts_init(&counts);
-    tn_status status = tn_house_variants_count(variants, trays, length, &counts, error);
-    if (status == TN_OK && find_variant(list, counts.houses)) {
-        mpz_set(houses, list->variant);
-        status = tn_house_variants_each(variants, trays, length, houses, give_house, list, error);
-    }
-    mpz_set(houses, counts.houses);
-    tn_house_counts_clear(&counts);
-    return status;
-}
-
-/* From house to house by their numbers: that takes a while for each, but nothing that clauses drop is gone through. */
-static tn_status list_by_number(tn_numbered *n, house_list *list, tn_plan_houses *plan, const mpz_t houses,
-                                tn_error *error)
-{
-    tn_status status = TN_OK;
-    while (status == TN_OK && find_variant(list, houses)) {
-        tn_house house;
-        status = tn_plan_houses_at(plan, list->variant, &house, error);
-        if (status == TN_OK)
-            status = tn_house_variants_tiles_from(n->variants, &house, give_house, list, error);
-        tn_house_clear(&house);
-    }
-    return status;
-}
-
-/* Are so few of the houses on the plan asked for that going through all of them would take longer? */
-static bool wants_few(house_list *list, const mpz_t houses)
-{
-    enum { FEW = 5000 };
-    mpz_t end;
-    mpz_init_set(end, houses);
-    mpz_add(end, end, list->before);
-    if (list->bounded && mpz_cmp(list->to, end) < 0)
-        mpz_set(end, list->to);
-    mpz_sub(end, end, list->next);
-    bool few = list->limit - list->given <= FEW || mpz_cmp_ui(end, FEW) <= 0;
-    mpz_clear(end);
-    return few;
-}
-
-/* Gives the houses on a plan that are asked for, if they are many to go through: they are counted tray by tray. */
-static tn_status list_many(tn_numbered *n, house_list *list, const tn_tray *trays, uint32_t length, mpz_t houses,
-                           tn_error *error)
-{
-    tn_plan_houses *plan;
-    tn_status status = tn_numbered_among(n, NULL, trays, length, &plan, error);
-    if (status == TN_LIMIT)
-        return list_through(n->variants, list, trays, length, houses, error);
-    if (status != TN_OK)
-        return status;
-    tn_houses_count(n->ranked.counted, TN_ALL_LENGTHS, houses);
-    status = TN_LIMIT;
-    if (!wants_few(list, houses))
-        status = list_through(n->variants, list, trays, length, houses, error);
-    if (status != TN_LIMIT)
-        return status;
-    tn_houses_count(n->ranked.counted, TN_ALL_LENGTHS, houses);
-    return list_by_number(n, list, plan, houses, error);
-}
-
 /* Gives the houses on a plan that are asked for. */
 static tn_status list_plan(tn_numbered *n, void *context, const tn_tray *trays, uint32_t length, bool *stop,
                            tn_error *error)
 {
     house_list *list = context;
-    mpz_t houses;
-    mpz_init(houses);
-    tn_status status = list_through(list->quick, list, trays, length, houses, error);
-    if (status == TN_LIMIT)
-        status = list_many(n, list, trays, length, houses, error);
+    mpz_t houses, first;
+    mpz_inits(houses, first, NULL);
+    tn_status status = tn_numbered_houses_on(n, trays, length, houses, error);
+    if (status == TN_OK && find_variant(list, houses)) {
+        mpz_set(first, list->variant);
+        status = tn_numbered_each(n, trays, length, first, give_house, list, error);
+    }
     mpz_add(list->before, list->before, houses); /* those up to the end of this plan */
     *stop = is_done(list);
-    mpz_clear(houses);
+    mpz_clears(houses, first, NULL);
     return status;
 }
 
@@ -193,11 +126,7 @@ static tn_status list_houses(tn_numbered *n, const tn_plan *plan, house_list *li
     if (status != TN_OK || finds.ended)
         return tn_finds_end(&finds, status, &error);
     list->given = of.before;
-    status = tn_house_variants_new(&n->form, n->record, QUICK_STEPS, &list->quick, &error);
-    if (status == TN_OK)
-        status =
-            plan ? list_plan(n, list, plan->trays, (uint32_t)plan->length, &stop, &error) : list_from(n, list, &error);
-    tn_house_variants_free(list->quick);
+    status = plan ? list_plan(n, list, plan->trays, (uint32_t)plan->length, &stop, &error) : list_from(n, list, &error);
     if (status == TN_OK) {
         say_none(n, plan != NULL, list);
         tell_next(list, answer);

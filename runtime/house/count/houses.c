@@ -385,7 +385,7 @@ void tn_houses_free(tn_houses *h)
         tn_value_counts_clear(&kind->spread);
         tn_frontier_free(kind->frontier);
     }
-    tn_sections_free(&h->sections);
+    tn_furnisher_free(h->furnisher);
     tn_houses_plans_clear(h);
     tn_weighed_free(h->weighed);
     tn_value_counts_clear(&h->best);
@@ -393,6 +393,13 @@ void tn_houses_free(tn_houses *h)
     tn_houses_added_clear(h);
     free(h->kinds);
     free(h);
+}
+
+tn_status tn_houses_furnisher(tn_houses *h, tn_furnisher **furnisher, tn_error *error)
+{
+    tn_status status = h->furnisher ? TN_OK : tn_furnisher_new(h->form, h->library, &h->furnisher, error);
+    *furnisher = h->furnisher;
+    return status;
 }
 
 /* ---- numbers */
@@ -465,7 +472,7 @@ static tn_status recount_house(void *context, const tn_house *house, bool *stop,
     return status;
 }
 
-static tn_status recount_plans(recounting *r, tn_house_variants *variants, tn_error *error)
+static tn_status recount_plans(recounting *r, tn_house_listing *listing, tn_error *error)
 {
     const tn_houses *h = r->houses;
     const tn_tray *trays;
@@ -474,10 +481,10 @@ static tn_status recount_plans(recounting *r, tn_house_variants *variants, tn_er
     mpz_t from, to;
     mpz_inits(from, to, NULL);
     tn_library_kept(h->plans, TN_ALL_LENGTHS, to);
-    tn_status status = h->only ? tn_house_variants_each(variants, h->only, h->low, from, recount_house, r, error)
+    tn_status status = h->only ? tn_house_listing_each(listing, h->only, h->low, from, recount_house, r, error)
                                : tn_cursor_new(h->plans, from, to, &cursor, error);
     while (status == TN_OK && cursor && tn_cursor_next(cursor, &trays, &length))
-        status = tn_house_variants_each(variants, trays, length, from, recount_house, r, error);
+        status = tn_house_listing_each(listing, trays, length, from, recount_house, r, error);
     tn_cursor_free(cursor);
     mpz_clears(from, to, NULL);
     return status;
@@ -508,21 +515,21 @@ static tn_status compare(const recounting *r, uint64_t counted, tn_error *error)
 tn_status tn_houses_recount(const tn_houses *houses, uint64_t most, tn_error *error)
 {
     recounting r = {.houses = houses};
-    tn_house_variants *variants = NULL;
+    tn_house_listing *listing = NULL;
     mpz_t counted;
     mpz_init(counted);
     tn_houses_count(houses, TN_ALL_LENGTHS, counted);
     bool few = mpz_cmp_ui(counted, most) <= 0 && few_plans(houses, most);
     tn_status status = few ? tn_house_rules_new(houses->form, 0, &r.rules, error) : TN_OK;
     if (few && status == TN_OK)
-        status = tn_house_variants_new(houses->form, houses->library, 0, &variants, error);
+        status = tn_house_listing_new(houses->form, houses->library, 0, &listing, error);
     if (few && status == TN_OK)
-        status = recount_plans(&r, variants, error);
+        status = recount_plans(&r, listing, error);
     if (few && status == TN_OK)
         status = compare(&r, mpz_get_ui(counted), error);
     else if (status == TN_LIMIT)
         status = TN_OK; /* more work than one wants */
-    tn_house_variants_free(variants);
+    tn_house_listing_free(listing);
     tn_house_rules_free(r.rules);
     mpz_clear(counted);
     return status;

@@ -125,16 +125,3 @@ tn_status tn_path_count_on(tn_plan_path *path, uint32_t trays, uint32_t state, c
     }
     return status;
 }
-
-tn_status tn_path_choose(tn_plan_path *path, const tn_choosing *choosing, tn_house *house, bool *found, tn_error *error)
-{
-    tn_path_slices *of_tray = calloc((size_t)path->length + 1, sizeof *of_tray);
-    tn_status status =
-        of_tray ? tn_path_functions(path, choosing, house, of_tray, found, error) : tn_fail_memory(error);
-    if (status == TN_OK && *found)
-        status = tn_path_faces(path, choosing, house, of_tray, found, error);
-    for (uint32_t i = 0; of_tray && i < path->length; i++)
-        free(of_tray[i].items);
-    free(of_tray);
-    return status;
-}

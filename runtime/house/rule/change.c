@@ -1,5 +1,5 @@
 /* Tries each other value of each choice of a house, and keeps the rest as it is. */
-#include "runtime/house/variant/change.h"
+#include "runtime/house/rule/change.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,26 +1,12 @@
-/* Keeps the counts of sections that nothing tells apart. */
-#include "runtime/house/variant/section.h"
+/* Finds what can be told of a section. */
+#include "runtime/house/count/section.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/base/array.h"
+#include "runtime/house/form/form.h"
+#include "runtime/house/rule/stages.h"
 #include "runtime/house/solids.h"
-#include "runtime/house/variant/parts.h"
-
-void tn_sections_forget(tn_sections *sections)
-{
-    for (size_t i = 0; i < sections->count; i++)
-        mpz_clear(sections->counts[i].houses);
-    sections->count = 0;
-}
-
-void tn_sections_free(tn_sections *sections)
-{
-    tn_sections_forget(sections);
-    free(sections->counts);
-    *sections = (tn_sections){0};
-}
 
 static void add_question(tn_sections *sections, int64_t question)
 {
@@ -162,25 +148,4 @@ tn_section_key tn_sections_key(const tn_sections *sections, const tn_house *hous
     for (size_t i = 0; i < sections->question_count; i++)
         key.answers |= (uint64_t)tn_house_chosen(house, sections->questions[i]) << i;
     return key;
-}
-
-const tn_section_count *tn_sections_find(const tn_sections *sections, const tn_house *house)
-{
-    tn_section_key key = tn_sections_key(sections, house);
-    for (size_t i = 0; i < sections->count; i++)
-        if (memcmp(&sections->counts[i].key, &key, sizeof key) == 0)
-            return &sections->counts[i];
-    return NULL;
-}
-
-tn_status tn_sections_keep(tn_sections *sections, const tn_house *house, const tn_house_counts *counts, tn_error *error)
-{
-    if (!tn_array_reserve_from(&sections->counts, &sections->room, 16, sections->count, 1, sizeof *sections->counts))
-        return tn_fail_memory(error);
-    tn_section_count *kept = &sections->counts[sections->count++];
-    kept->key = tn_sections_key(sections, house);
-    kept->zoned = counts->zoned;
-    kept->faced = counts->faced;
-    mpz_init_set(kept->houses, counts->houses);
-    return TN_OK;
 }
