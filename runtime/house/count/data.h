@@ -2,6 +2,7 @@
 #ifndef TARTAN_HOUSE_COUNT_DATA_H
 #define TARTAN_HOUSE_COUNT_DATA_H
 
+#include "runtime/automata/walk.h"
 #include "runtime/house/count/houses.h"
 #include "runtime/house/count/section.h"
 #include "runtime/house/frontier/states.h"
@@ -143,6 +144,21 @@ typedef tn_status tn_houses_edge_seen(void *context, const tn_houses_edge *edge,
  * end of the row. `state` of a step is what the next layer is of. */
 tn_status tn_houses_expand(const tn_houses *houses, tn_houses_kind *kind, uint32_t layer, bool end,
                            tn_houses_edge_seen *seen, void *context, tn_error *error);
+
+/* The layers of a kind as a graph of keys (walk.h); the labels of its edges are tn_houses_edge. */
+typedef struct tn_houses_layers {
+    const tn_houses *houses;
+    tn_houses_kind *kind;
+    tn_key_walk walk;
+} tn_houses_layers;
+
+/* Makes the layers ready for a walk, with the first node; if they are there already, the walk is over their nodes. */
+tn_status tn_houses_layers_begin(tn_houses_layers *layers, const tn_houses *houses, tn_houses_kind *kind,
+                                 tn_error *error);
+
+/* The same forwards, from the first node on, once. */
+tn_status tn_houses_go_forward(const tn_houses *houses, tn_houses_kind *kind, const tn_key_question *question,
+                               tn_error *error);
 
 /* Keeps a step of a layer that counting goes, since ranks go the same ones backwards. If there are too many, those
  * of the layer are forgotten. */

@@ -34,32 +34,25 @@ void tn_path_clear(tn_plan_path *p)
 
 /* ---- states */
 
-typedef struct tn_path_reaching {
-    tn_plan_path *path;
-    uint32_t layer;
-} tn_path_reaching;
-
-static tn_status reach(void *context, const tn_houses_edge *edge, tn_error *error)
+static tn_status keep_step(void *context, void *sum, const void *element, const tn_walk_edge *at, tn_error *error)
 {
-    tn_path_reaching *r = context;
-    uint64_t node = (uint64_t)edge->plan << 32 | edge->state;
-    uint32_t to = tn_number(&r->path->kind.layers[r->layer + 1].nodes, node);
-    if (to == UINT32_MAX)
-        return tn_fail_memory(error);
-    return tn_houses_keep_step(&r->path->view, &r->path->kind, r->layer, to, edge, error);
+    tn_plan_path *p = context;
+    (void)sum;
+    (void)element;
+    return tn_houses_keep_step(&p->view, &p->kind, at->layer, at->to, at->label, error);
 }
 
 static tn_status find_nodes(tn_plan_path *p, tn_error *error)
 {
-    tn_path_reaching r = {.path = p};
-    p->kind.layers = calloc(tn_size_of(p->length, p->stages) + 1, sizeof *p->kind.layers);
-    if (!p->kind.layers || tn_number(&p->kind.layers[0].nodes, TN_FRONTIER_NONE) == UINT32_MAX)
-        return tn_fail_memory(error);
-    tn_status status = TN_OK;
-    for (; status == TN_OK && r.layer < p->length * p->stages; r.layer++) {
-        p->kind.layers[r.layer].kept.all = true;
-        status = tn_houses_expand(&p->view, &p->kind, r.layer, false, reach, &r, error);
-    }
+    static const tn_walk_algebra keeping = {.add = keep_step};
+    const tn_key_question steps = {&keeping, NULL, p, 0};
+    tn_houses_layers l;
+    tn_status status = tn_houses_layers_begin(&l, &p->view, &p->kind, error);
+    for (uint32_t k = 0; status == TN_OK && k < l.walk.last; k++)
+        p->kind.layers[k].kept.all = true;
+    if (status == TN_OK)
+        status = tn_key_walk_forward(&l.walk, &steps, error);
+    tn_key_walk_clear(&l.walk, NULL, NULL);
     return status;
 }
 

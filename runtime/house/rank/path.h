@@ -25,6 +25,9 @@ bool tn_choosing_passes(const tn_choosing *choosing, const mpz_t houses, bool is
 /* How many houses go on from each node of the layers, for each length; the nodes are found. */
 tn_status tn_houses_look_ahead(const tn_houses *houses, tn_houses_kind *kind, tn_error *error);
 
+/* The same by a walk over the nodes (labels: tn_houses_edge). */
+tn_status tn_houses_look_back(const tn_houses *houses, tn_houses_kind *kind, tn_key_walk *walk, tn_error *error);
+
 /* Of each state after so many trays: choices of the functions so far, and of all else, that lead there; houses that go
  * on from there with the functions, once they are chosen. */
 typedef struct tn_path_states {

@@ -337,14 +337,15 @@ static tn_status add_all(const tn_furnisher *f, tn_error *error)
 static tn_status ask_clauses(tn_furnisher *f, tn_int128 steps, bool *kept, tn_error *error)
 {
     tn_tile_costs *c = f->costs;
-    tn_status status = TN_OK;
+    tn_status status = tn_house_rules_start(f->rules, f->house, error); /* forgets the answers at another price */
     tn_steps_number(steps, c->unit, c->price);
     mpq_add(c->price, c->price, c->shell);
+    if (status == TN_OK)
+        tn_house_rules_price(f->rules, c->price);
     for (uint32_t i = 0; status == TN_OK && *kept && i < f->library->clause_count; i++) {
         bool drops = false;
         if (f->stages[i] != TN_STAGE_TILES)
             continue;
-        tn_house_rules_price(f->rules, c->price);
         status = tn_house_rules_drop(f->rules, f->library, i, &drops, error);
         *kept = !drops;
     }
@@ -361,11 +362,8 @@ static tn_status choose_sums(tn_furnisher *f, mpq_srcptr cost, tn_error *error)
     c->kept = calloc(c->sums[0].count + 1, sizeof *c->kept);
     if (!c->kept)
         return tn_fail_memory(error);
-    if (f->prices && possible) {
+    if (f->prices && possible)
         status = tn_house_exact_cost(f->house, tn_house_shell, c->shell, error);
-        if (status == TN_OK)
-            status = tn_house_rules_start(f->rules, f->house, error);
-    }
     for (size_t i = 0; status == TN_OK && possible && i < c->sums[0].count; i++) {
         c->kept[i] = !cost || c->sums[0].steps[i] == wanted;
         if (f->prices && c->kept[i])
