@@ -334,8 +334,8 @@ static tn_status explain_below(tn_explaining *e, tn_reader_of who, uint32_t node
         if (!why.matched)
             find_closest(e, who, node);
         return TN_OK;
-    case TN_PART_RULE:
-        return explain_rule(e, who, at, same, node);
+    case TN_PART_RULE: /* one that uses itself is opened on its own stretch alone: elsewhere it would go on for ever */
+        return part->again && !(why.matched && why.whole) ? TN_OK : explain_rule(e, who, at, same, node);
     case TN_PART_AND:
     case TN_PART_OR:
         return explain_children(e, who, at, same, node);
@@ -357,6 +357,9 @@ static tn_status explain_below(tn_explaining *e, tn_reader_of who, uint32_t node
     }
     case TN_PART_MANY:
         return tn_explain_part(e, tn_child(who, part->first), at, TN_ASKED_SINGLES, node, &made);
+    case TN_PART_REPEAT:
+        return why.matched ? tn_explain_repeat(e, who, node, at)
+                           : tn_explain_part(e, tn_child(who, part->first), at, TN_ASKED_SOMEWHERE, node, &made);
     case TN_PART_DISTANCE:
     case TN_PART_NEAR:
     case TN_PART_FAR:

@@ -61,6 +61,7 @@ tn_status tn_explain_part(tn_explaining *e, tn_reader_of who, tn_stretch region,
 /* ---- explain_neighbour.c, explain_distance.c: the parts below a node of that kind */
 tn_status tn_explain_neighbour(tn_explaining *e, tn_reader_of who, uint32_t node, tn_stretch stretch);
 tn_status tn_explain_no_neighbour(tn_explaining *e, tn_reader_of who, uint32_t node);
+tn_status tn_explain_repeat(tn_explaining *e, tn_reader_of who, uint32_t node, tn_stretch stretch);
 tn_status tn_explain_distance(tn_explaining *e, tn_reader_of who, uint32_t node, tn_stretch stretch);
 
 /* What a quantity, sum or occurrences counts in a stretch; TN_NO_NUMBER for other parts. */

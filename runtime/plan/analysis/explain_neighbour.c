@@ -1,4 +1,5 @@
-/* Neighbours: where each part lies, or how many side by side could be found. */
+/* Neighbours: where each part lies, or how many side by side could be found. And what is repeated: where each of its
+ * stretches lies. */
 #include <stdlib.h>
 
 #include "runtime/plan/analysis/explain_data.h"
@@ -156,5 +157,47 @@ tn_status tn_explain_no_neighbour(tn_explaining *e, tn_reader_of who, uint32_t n
     }
     free(room);
     row_clear(&row);
+    return status;
+}
+
+/* ---- what is repeated */
+
+/* The first end behind `at` of a stretch of the relation from which `left` more lead on to the end (fits[n][i]: n of
+ * them fill [i, end)). */
+static uint32_t next_repeat(const tn_explaining *e, const uint64_t *relation, const uint8_t *fits, uint32_t left,
+                            uint32_t at, uint32_t places)
+{
+    const uint64_t *bits = relation + at * e->words;
+    size_t end = tn_relation_row_next(bits, at + 1, e->words);
+    while (end != TN_NO_BIT && !fits[(size_t)left * places + end])
+        end = end + 1 < places ? tn_relation_row_next(bits, end + 1, e->words) : TN_NO_BIT;
+    return end == TN_NO_BIT ? UINT32_MAX : (uint32_t)end;
+}
+
+/* As few as fill it, from the left each as short as it can be. */
+tn_status tn_explain_repeat(tn_explaining *e, tn_reader_of who, uint32_t node, tn_stretch stretch)
+{
+    const tn_part *part = tn_part_of(e, who);
+    tn_reader_of each = tn_child(who, part->first);
+    uint32_t least = part->least, places = e->result->length + 1, most = stretch.end - stretch.begin, count = 0;
+    const uint64_t *relation;
+    tn_status status = tn_explain_relation(e, each, &relation);
+    uint8_t *fits = calloc((size_t)most + 1, places);
+    if (status == TN_OK && !fits)
+        status = tn_fail_memory(e->error);
+    if (status == TN_OK)
+        fits[stretch.end] = 1;
+    while (status == TN_OK && count < most && !(count >= least && fits[(size_t)count * places + stretch.begin])) {
+        for (uint32_t i = stretch.begin; i < stretch.end; i++)
+            fits[((size_t)count + 1) * places + i] = next_repeat(e, relation, fits, count, i, places) != UINT32_MAX;
+        count++;
+    }
+    for (uint32_t at = stretch.begin; status == TN_OK && count > 0;) {
+        uint32_t end = next_repeat(e, relation, fits, --count, at, places), made;
+        status = end == UINT32_MAX ? TN_OK
+                                   : tn_explain_part(e, each, (tn_stretch){at, end}, TN_ASKED_AS_WRITTEN, node, &made);
+        at = end;
+    }
+    free(fits);
     return status;
 }
