@@ -1,7 +1,7 @@
 /* Verifies and lists the rules and libraries of a module, and the code of rules and conditions. */
 #include "runtime/module/engine.h"
 #include "runtime/module/code.h"
-#include "runtime/plan/match/condition_text.h"
+#include "runtime/plan/match/condition.h"
 #include "runtime/plan/schema/list.h"
 #include "runtime/plan/schema/sum.h"
 
@@ -136,8 +136,9 @@ static tn_status check_numbers(const tn_checker *checker, const tn_instruction *
     if (instruction->opcode == TN_OP_REMAINDER && (instruction->first <= 0 || instruction->second < 0))
         return tn_refuse(checker, "a remainder needs a divisor above 0 and a rest not below 0");
     bool times = instruction->opcode == TN_OP_REPEATED;
-    if (times && (instruction->first < 1 || instruction->first > TN_REPEATED_MAX || instruction->second > TN_REPEATED_MAX ||
-                  (instruction->second != 0 && instruction->second < instruction->first)))
+    if (times &&
+        (instruction->first < 1 || instruction->first > TN_REPEATED_MAX || instruction->second > TN_REPEATED_MAX ||
+         (instruction->second != 0 && instruction->second < instruction->first)))
         return tn_refuse(checker, "a stretch is cut into 1 to %u others", TN_REPEATED_MAX);
     return TN_OK;
 }

@@ -430,8 +430,8 @@ void tn_parts_clear(tn_parts *parts)
 const char *tn_part_word(tn_part_kind kind)
 {
     static const char *const words[TN_PART_KIND_COUNT] = {
-        "tray",        "rule", "and",      "or",   "not", "neighbour", "symmetric",  "quantity", "sum",
-        "occurrences", "many", "repeat", "distance", "near", "far", "where",     "comparison", "house",
+        "tray",        "rule", "and",    "or",       "not",  "neighbour", "symmetric", "quantity",   "sum",
+        "occurrences", "many", "repeat", "distance", "near", "far",       "where",     "comparison", "house",
     };
     return kind < TN_PART_KIND_COUNT ? words[kind] : "part";
 }

@@ -119,8 +119,8 @@ TN_RELATION_INLINE void run_sum(tn_plan_vm *vm, uint64_t *relation, uint32_t fie
     }
 }
 
-/* REPEATED: as many stretches as it needs, chained, and then as many as it may have. No stretch has more than trays. The
- * relation behind it on the stack is room. */
+/* REPEATED: as many stretches as it needs, chained, and then as many as it may have. No stretch has more than trays.
+ * The relation behind it on the stack is room. */
 TN_RELATION_INLINE void run_times(tn_plan_vm *vm, uint64_t *relation, uint64_t least, uint64_t most, size_t words)
 {
     size_t trays = vm->length;

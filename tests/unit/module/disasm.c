@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "runtime/load.h"
-#include "runtime/plan/match/condition_text.h"
+#include "runtime/plan/match/condition.h"
 #include "tests/support/sample_module.h"
 
 static char *listing(tn_builder *builder)

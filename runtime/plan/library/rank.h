@@ -1,6 +1,6 @@
 /* Ranks of many plans, one after the other: what a plan begins with as the one before it did is not counted again. */
-#ifndef TARTAN_PLAN_LIBRARY_RANKING_H
-#define TARTAN_PLAN_LIBRARY_RANKING_H
+#ifndef TARTAN_PLAN_LIBRARY_RANK_H
+#define TARTAN_PLAN_LIBRARY_RANK_H
 
 #include "runtime/plan/library/library.h"
 

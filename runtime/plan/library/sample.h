@@ -3,8 +3,8 @@
  * They are the numbers of tn_ranks_sample. To know where drawing ends, all are drawn once (tn_draws_count), in as many
  * rounds as memory asks for; a stretch then needs no more memory than its own numbers take.
  */
-#ifndef TARTAN_PLAN_LIBRARY_SAMPLE_SHARES_H
-#define TARTAN_PLAN_LIBRARY_SAMPLE_SHARES_H
+#ifndef TARTAN_PLAN_LIBRARY_SAMPLE_H
+#define TARTAN_PLAN_LIBRARY_SAMPLE_H
 
 #include <gmp.h>
 
