@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ask/genome/evolving.h"
+#include "ask/genome/evolve.h"
 #include "ask/session/questions.h"
 #include "driver/breed/evolve.h"
 

@@ -8,7 +8,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/common/job.h"
+#include "cli/common/options.h"
+#include "compiler/common/diagnostic.h"
 #include "runtime/base/utf8.h"
 
 #define PATIENCE 1u /* seconds from the signal to the end; two are promised */

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "cli/common/interrupt.h"
-#include "cli/common/job.h"
+#include "compiler/common/diagnostic.h"
 #include "runtime/base/memory.h"
 
 #define PAUSE_NS 10000000 /* between two measurements: some 50 MB at most are taken in it */

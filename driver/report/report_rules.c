@@ -2,7 +2,7 @@
 #include <stdlib.h>
 
 #include "driver/open/findings.h"
-#include "driver/report/report_data.h"
+#include "driver/report/report_rules.h"
 #include "runtime/plan/picture/draw_rule.h"
 
 /* A clause or rule and what is known of it. */
