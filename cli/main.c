@@ -3,7 +3,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "ask/describe.h"
+#include "ask/questions.h"
 #include "cli/commands.h"
 #include "cli/common/completion.h"
 #include "cli/common/help.h"

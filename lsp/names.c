@@ -5,7 +5,6 @@
 #include "compiler/common/limits.h"
 #include "compiler/plan/syntax/parse.h"
 #include "lsp/features.h"
-#include "lsp/folders.h"
 #include "lsp/workspace.h"
 #include "runtime/base/file.h"
 

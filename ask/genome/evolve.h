@@ -28,8 +28,6 @@ void tn_evolving_warn(const tn_evolving *evolving);
 
 /* ---- as answers have them */
 
-void tn_generation_put(const tn_generation_stats *stats, tn_run_generation *to);
-
 tn_status tn_individual_put(const tn_individual *individual, tn_individual_told *to, tn_error *error);
 
 /* Files of a run without a folder go into the answer: `files` is what tn_run_results and the like take, or NULL if they

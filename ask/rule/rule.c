@@ -7,7 +7,7 @@
 
 #include "ask/session/made.h"
 #include "ask/session/questions.h"
-#include "ask/source/place.h"
+#include "ask/source/check.h"
 #include "compiler/notation.h"
 #include "compiler/plan/edit/rule_edit.h"
 #include "compiler/plan/syntax/program.h"

@@ -10,7 +10,6 @@
 
 #include "ask/session/questions.h"
 #include "cli/common/interrupt.h"
-#include "cli/common/memory_guard.h"
 #include "runtime/base/array.h"
 #include "runtime/base/clock.h"
 #include "runtime/ranks/ranks.h"

@@ -14,7 +14,6 @@
 #include "ask/session/session.h"
 #include "cli/common/options.h"
 #include "cli/common/progress.h"
-#include "driver/open/findings.h"
 #include "driver/open/open.h"
 #include "runtime/base/file.h"
 

@@ -13,7 +13,6 @@
 #include "cli/common/help.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/job.h"
-#include "cli/common/memory_guard.h"
 #include "cli/common/options.h"
 #include "runtime/base/utf8.h"
 

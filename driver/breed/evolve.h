@@ -10,11 +10,11 @@
 #define TARTAN_DRIVER_BREED_EVOLVE_H
 
 #include "driver/breed/builder.h"
+#include "driver/breed/evolve_results.h"
 #include "driver/breed/field_parents.h"
 #include "driver/breed/field_scorer.h"
 #include "driver/breed/grower.h"
 #include "driver/breed/learn.h"
-#include "driver/breed/run_files.h"
 #include "driver/breed/skeleton.h"
 #include "driver/hand/hand.h"
 #include "driver/open/open.h"

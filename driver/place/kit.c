@@ -1,7 +1,7 @@
 /* Chooses models of kits, and says which of their conditions do not hold. */
 #include "driver/place/kit.h"
 
-#include "driver/open/findings.h"
+#include "driver/open/open.h"
 #include "runtime/place/search/search.h"
 
 /* ---- runs a connection grammar and explains where it cannot go on */

@@ -5,7 +5,7 @@
 #ifndef TARTAN_DRIVER_PLAN_LIBRARY_H
 #define TARTAN_DRIVER_PLAN_LIBRARY_H
 
-#include "driver/open/findings.h"
+#include "driver/open/open.h"
 #include "runtime/plan/library/library.h"
 #include "runtime/plan/match/rules.h"
 

@@ -6,7 +6,6 @@
 
 #include "compiler/plan/syntax/program.h"
 #include "driver/house/tests.h"
-#include "driver/open/findings.h"
 #include "driver/open/open.h"
 #include "driver/plan/explain.h"
 #include "driver/plan/library.h"

@@ -3,7 +3,7 @@
 #define TARTAN_DRIVER_PLAN_TESTS_H
 
 #include "compiler/plan/syntax/program.h"
-#include "driver/open/findings.h"
+#include "driver/open/open.h"
 #include "runtime/module/module.h"
 #include "runtime/plan/match/vm.h"
 

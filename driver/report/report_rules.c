@@ -1,7 +1,7 @@
 /* The rules of a report: a card for each clause of the library, and for each rule of the file that is none. */
 #include <stdlib.h>
 
-#include "driver/open/findings.h"
+#include "driver/open/open.h"
 #include "driver/report/report_rules.h"
 #include "runtime/plan/picture/draw_rule.h"
 

@@ -3,7 +3,7 @@
  * A set is a folder. `manifest.json` says what the shards are and never changes; `rules.tnb` is the module that every
  * worker runs; `shards/000/000000.plans` and so on are the shards, in the order of their ranks. Nothing else is shared,
  * and what a shard holds depends on the manifest and the module alone. Beside a shard lies its record (record.h), and
- * while a worker writes it, its claim (claim.h).
+ * while a worker writes it, its claim (run.h).
  *
  * The shards of other sets are not plans of a library, but what `tartan match` or `tartan prune` says of the plans of
  * large files (inputs.h).

@@ -17,7 +17,7 @@
 #include <xxhash.h>
 
 #include "compiler/notation.h"
-#include "lsp/folders.h"
+#include "lsp/workspace.h"
 #include "runtime/base/array.h"
 #include "runtime/base/file_error.h"
 #include "runtime/base/utf8.h"

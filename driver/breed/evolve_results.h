@@ -1,6 +1,6 @@
 /* Where the files of a run go: into its folder, or to whoever takes them. */
-#ifndef TARTAN_DRIVER_BREED_RUN_FILES_H
-#define TARTAN_DRIVER_BREED_RUN_FILES_H
+#ifndef TARTAN_DRIVER_BREED_EVOLVE_RESULTS_H
+#define TARTAN_DRIVER_BREED_EVOLVE_RESULTS_H
 
 #include <stdio.h>
 

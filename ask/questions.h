@@ -1,7 +1,7 @@
 /* Questions, requests and answers described for others: what requests.def says, as a JSON Schema, as types of
  * TypeScript, as a page. */
-#ifndef TARTAN_ASK_DESCRIBE_H
-#define TARTAN_ASK_DESCRIBE_H
+#ifndef TARTAN_ASK_QUESTIONS_H
+#define TARTAN_ASK_QUESTIONS_H
 
 #include <stdio.h>
 
