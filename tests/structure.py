@@ -3,9 +3,8 @@
 
 The table of folders in docs/internals.md says which folder may include from which. This reads every #include and every tartan_folder() and
 fails on an arrow that the table does not list (what the rows of a .def file name counts as an arrow, too), on a circle of folders, of
-headers or of files, on a folder with too many files, on a type defined
-in two places, on a source file that does not say what it is, on arrays that are grown by hand, and on headers that can't be included together. `--table` prints the rows
-that the includes ask for."""
+headers or of files, on a folder with too many files, on a type defined in two places, on a source file that does not say what it is, on
+arrays that are grown by hand, and on headers that can't be included together. `--table` prints the rows that the includes ask for."""
 import collections, os, re, subprocess, sys, tempfile
 
 TOP = ("grammar", "compiler", "runtime", "driver", "ask", "api", "lsp", "studio", "cli", "mpi")
