@@ -315,7 +315,8 @@ static void complete_clause_names(lsp_cursor *c)
 static void complete_library(lsp_cursor *c)
 {
     offer_words(c, TN_AT(CLAUSE));
-    if (cursor_is(c, c->clause, "require") || cursor_is(c, c->clause, "prune") || cursor_is(c, c->clause, "prefer")) {
+    if (cursor_is(c, c->clause, "require") || cursor_is(c, c->clause, "generate") || cursor_is(c, c->clause, "prune") ||
+        cursor_is(c, c->clause, "prefer")) {
         offer_words(c, TN_AT(CLAUSE_END));
         complete_expression(c);
     } else if (cursor_is(c, c->clause, "weight")) {

@@ -8,7 +8,7 @@
 #include "driver/open/digits.h"
 #include "driver/plan/library.h"
 #include "runtime/house/rank/rank.h"
-#include "runtime/plan/library/ranking.h"
+#include "runtime/plan/library/rank.h"
 #include "runtime/plan/measure/best.h"
 #include "runtime/plan/measure/moments.h"
 #include "runtime/plan/measure/named.h"

@@ -316,6 +316,43 @@ bool tn_words_changes(const tn_explained *explained, const tn_near_plan *plan, t
     return !out->failed;
 }
 
+/* ---- how far a plan goes along with what is generated */
+
+enum { FOLLOWS_SHOWN = 4 };
+
+bool tn_words_beginning(const tn_explained *explained, const tn_generated_beginning *beginning, tn_buffer *out)
+{
+    const tn_schema *schema = explained->schema;
+    tn_buffer line = {0};
+    bool nothing = beginning->count == 0 && !beginning->may_end, ok = true;
+    if (nothing)
+        return tn_buffer_printf(out, "no plan is so made that has as many trays as plans of this library have");
+    if (beginning->length == 0)
+        ok = tn_buffer_printf(out, "not its first tray; there may come ");
+    else if (beginning->length == explained->length)
+        ok = tn_buffer_printf(out, "to its end, and it cannot end there; then may come ");
+    else
+        ok = beginning->length == 1
+                 ? tn_buffer_printf(out, "its first tray is as in some plan that is so made; then may come ")
+                 : tn_buffer_printf(out, "its first %u trays are as in some plan that is so made; then may come ",
+                                    beginning->length);
+    uint32_t shown = 0;
+    for (tn_tray t = 0; ok && t < schema->tray_count && shown < FOLLOWS_SHOWN; t++) {
+        if (!beginning->follows[t])
+            continue;
+        line.size = 0;
+        ok = tn_plan_write_line(schema, &t, 1, &line) &&
+             tn_buffer_printf(out, "%s`%s`", shown == 0 ? "" : ", ", line.data);
+        shown++;
+    }
+    if (ok && beginning->count > shown)
+        ok = tn_buffer_printf(out, " or %u others", beginning->count - shown);
+    if (ok && beginning->may_end)
+        ok = tn_buffer_printf(out, "%sthe plan's end", beginning->count > 0 ? ", or " : "");
+    free(line.data);
+    return ok;
+}
+
 /* ---- explanations as pictures: the rows of the text, drawn */
 
 typedef struct gathering {
@@ -561,13 +598,23 @@ static const char *verdict(const tn_explained_rule *rule)
     return rule->holds ? "is met" : "is not met";
 }
 
+static void write_beginning(writing *w, const tn_explained *explained, const tn_generated_beginning *beginning)
+{
+    tn_buffer words = {0};
+    if (!beginning->known)
+        return;
+    w->ok = w->ok && tn_words_beginning(explained, beginning, &words) &&
+            tn_buffer_printf(w->out, "  how far it goes: %s\n", words.data);
+    free(words.data);
+}
+
 bool tn_explained_rule_text(const tn_explained *explained, const tn_explained_rule *rule, bool full, tn_buffer *out)
 {
     writing w = {.why = &rule->why, .full = full, .out = out, .ok = true};
-    (void)explained;
     w.ok &= tn_buffer_printf(out, "`%s` %s%s%s\n", rule->name, verdict(rule), *rule->doc ? ": " : "", rule->doc);
     write_tree(&w);
     write_largest(&w);
+    write_beginning(&w, explained, &rule->beginning);
     return w.ok;
 }
 
@@ -722,6 +769,10 @@ static tn_status explain_clause(tn_explained *explained, uint32_t i, size_t max_
     tn_status status = explain_one(explained, made, clause->holds, max_length, error);
     made->drops = status == TN_OK && made->holds == (clause->kind == TN_CLAUSE_PRUNE);
     explained->kept = explained->kept && !made->drops;
+    if (status == TN_OK && made->drops && clause->kind == TN_CLAUSE_GENERATE)
+        status = tn_generated_beginning_find(explained->schema, clause->holds, explained->library->trays_min,
+                                             explained->library->trays_max, explained->trays, explained->length,
+                                             &made->beginning, error);
     return status;
 }
 
@@ -766,8 +817,10 @@ tn_status tn_explained_near(tn_explained *explained, tn_near_finder *finder, siz
 
 void tn_explained_clear(tn_explained *explained)
 {
-    for (size_t i = 0; i < explained->count; i++)
+    for (size_t i = 0; i < explained->count; i++) {
         tn_explanation_clear(&explained->rules[i].why);
+        tn_generated_beginning_clear(&explained->rules[i].beginning);
+    }
     for (size_t i = 0; i < explained->preference_count; i++)
         tn_explanation_clear(&explained->preferences[i].why);
     free(explained->preferences);

@@ -13,7 +13,7 @@
 #include "driver/zstd/zstd.h"
 #include "runtime/base/file.h"
 #include "runtime/plan/library/library.h"
-#include "runtime/plan/library/sample_shares.h"
+#include "runtime/plan/library/sample.h"
 #include "runtime/plan/text/pack.h"
 
 /* ---- samples */
