@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/session/spelled.h"
 #include "runtime/base/nearest.h"
 
 tn_house_settings tn_asked_houses(const tn_library_asked *asked)

@@ -5,7 +5,7 @@
 #include "ask/house/numbered.h"
 #include "ask/session/questions.h"
 #include "ask/session/session.h"
-#include "driver/open/findings.h"
+#include "driver/open/open.h"
 #include "driver/plan/analysis.h"
 #include "runtime/base/crew.h"
 #include "runtime/base/integers.h"

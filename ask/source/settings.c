@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "ask/session/questions.h"
-#include "ask/source/place.h"
+#include "ask/source/check.h"
 #include "compiler/common/lexical.h"
 #include "compiler/common/listing.h"
 #include "compiler/common/number_ranges.h"
