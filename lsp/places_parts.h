@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "driver/house/survey.h"
-#include "runtime/base/length_style.h"
+#include "runtime/base/length.h"
 
 /* A form that was gone through, and where the words go. */
 typedef struct tn_place_words {

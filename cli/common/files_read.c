@@ -8,7 +8,7 @@
 #include "cli/common/interrupt.h"
 #include "cli/common/job.h"
 #include "runtime/base/array.h"
-#include "runtime/base/clock.h"
+#include "runtime/base/watch.h"
 
 typedef struct tn_file_seen {
     char *path;

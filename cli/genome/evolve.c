@@ -8,8 +8,8 @@
 #include "cli/common/interrupt.h"
 #include "cli/common/progress.h"
 #include "cli/genome/evolution_session.h"
-#include "runtime/base/clock.h"
 #include "runtime/base/utf8.h"
+#include "runtime/base/watch.h"
 
 /* ---- while it runs */
 

@@ -12,7 +12,6 @@
 #include "cli/common/option_rows.h"
 #include "runtime/base/bytes.h"
 #include "runtime/base/file.h"
-#include "runtime/base/file_error.h"
 
 /* ---- evaluates a field at the places that the lines of a file name */
 

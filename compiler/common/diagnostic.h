@@ -14,7 +14,7 @@
 #include <stdio.h>
 
 #include "compiler/common/source.h"
-#include "runtime/base/codes.h"
+#include "runtime/base/error.h"
 #include "runtime/base/nearest.h"
 
 typedef enum tn_severity { TN_NOTE, TN_WARNING, TN_ERROR } tn_severity;

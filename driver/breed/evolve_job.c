@@ -13,7 +13,6 @@
 #include "runtime/base/array.h"
 #include "runtime/base/crew.h"
 #include "runtime/base/file.h"
-#include "runtime/base/file_error.h"
 
 #define DATA_BYTES_MAX ((size_t)256 << 20)
 

@@ -8,7 +8,7 @@
 #include "driver/parquet/reading.h"
 #include "runtime/base/array.h"
 #include "runtime/base/bytes.h"
-#include "runtime/base/file_error.h"
+#include "runtime/base/file.h"
 
 #define FOOTER_MOST ((size_t)1 << 28) /* bytes */
 enum { NESTING_MOST = 16 };           /* groups within groups */

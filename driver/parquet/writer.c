@@ -7,7 +7,7 @@
 #include "driver/parquet/writing.h"
 #include "runtime/base/array.h"
 #include "runtime/base/bytes.h"
-#include "runtime/base/file_error.h"
+#include "runtime/base/file.h"
 #include "runtime/base/integers.h"
 
 #define GROUP_DEFAULT 1000000u

@@ -4,7 +4,7 @@
 
 #include "driver/plan/explain.h"
 #include "runtime/base/array.h"
-#include "runtime/base/length_style.h"
+#include "runtime/base/length.h"
 
 #define STRETCHES_SHOWN 8u
 #define LENGTH_TEXT 64

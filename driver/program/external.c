@@ -14,8 +14,8 @@
 #include "driver/program/keeper.h"
 #include "driver/program/process.h"
 #include "runtime/base/array.h"
-#include "runtime/base/clock.h"
-#include "runtime/base/file_error.h"
+#include "runtime/base/file.h"
+#include "runtime/base/watch.h"
 
 #define TICK_MS 50 /* how often a watch is looked at */
 

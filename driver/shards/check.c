@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "driver/shards/record.h"
-#include "runtime/base/file_error.h"
+#include "runtime/base/file.h"
 
 /* Of answers a record says what was read for them, too. */
 static tn_status check_answers(const tn_shard_set *set, uint32_t shard, tn_error *error)

@@ -12,9 +12,9 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "runtime/base/clock.h"
-#include "runtime/base/file_error.h"
+#include "runtime/base/file.h"
 #include "runtime/base/json.h"
+#include "runtime/base/watch.h"
 
 #define TOUCHES 8         /* times that a claim is touched before it would be stale */
 #define WRITTEN_WITHIN 5. /* seconds after which a claim that says nothing is of a worker killed while it made it */

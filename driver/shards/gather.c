@@ -10,7 +10,6 @@
 #include "driver/shards/check.h"
 #include "driver/shards/record.h"
 #include "runtime/base/file.h"
-#include "runtime/base/file_error.h"
 #include "runtime/plan/store/sqlite.h"
 
 /* ---- writes the answers of all shards into one file */

@@ -13,8 +13,8 @@
 #include "driver/shards/hash.h"
 #include "driver/shards/record.h"
 #include "driver/shards/write.h"
-#include "runtime/base/clock.h"
 #include "runtime/base/crew.h"
+#include "runtime/base/watch.h"
 
 #define WAIT_FIRST 0.05 /* seconds until it is looked again whether others are done */
 #define WAIT_MOST 2.0   /* and at most */

@@ -85,4 +85,16 @@ static inline tn_status tn_file_state_same(const tn_file_state *before, int file
 /* A path that a file names lies relative to that file. The caller frees it; NULL where out of memory. */
 char *tn_file_beside(const char *file, const char *path);
 
+/* What is said of a file that could not be read or written: why, and what to do about it, in plain words. */
+
+/* E0901, TN_IO. `reason` is the errno of what failed. */
+tn_status tn_cannot_read(const char *path, int reason, tn_error *error);
+
+/* E0902, TN_IO; E0903 where the reader of a pipe went away; TN_MEMORY where memory was what lacked. A `reason` of 0 is
+ * an input or output error. */
+tn_status tn_cannot_write(const char *path, int reason, tn_error *error);
+
+/* E0902, TN_IO: a folder that could not be made. */
+tn_status tn_cannot_make(const char *path, int reason, tn_error *error);
+
 #endif

@@ -12,6 +12,7 @@
 
 #include <pthread.h>
 #include <stdatomic.h>
+#include <time.h>
 
 #include "runtime/base/error.h"
 
@@ -60,5 +61,15 @@ tn_status tn_watch_room(const tn_watch *watch, uint64_t bytes, const char *what,
 
 /* Says how far the work is; on any other thread than the watch's own it says nothing. NULL is fine. */
 void tn_watch_tell(tn_watch *watch, double done, double total);
+
+/* Time that passes, for pauses and progress; never for results. */
+
+/* Seconds since some moment before the program began; nobody sets this clock back. */
+static inline double tn_seconds(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
+}
 
 #endif

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/base/clock.h"
+#include "runtime/base/watch.h"
 #include "runtime/field/contour_parts.h"
 
 void tn_contour_clear(tn_contour *contour)

@@ -7,6 +7,8 @@
 #ifndef TARTAN_MODULE_ENGINE_H
 #define TARTAN_MODULE_ENGINE_H
 
+#include <stdio.h>
+
 #include "runtime/module/lister.h"
 #include "runtime/module/verify.h"
 
@@ -67,5 +69,22 @@ const tn_engine *tn_engine_of_terms(const tn_engines *engines, tn_function_kind 
 
 /* What the engines say of each kind of operands; NULL where none says anything. */
 void tn_engines_operands(const tn_engines *engines, const tn_operand_rules *rules[TN_OPERANDS_COUNT]);
+
+/* Lists a module in text: tables, then each function's code beside the source lines it comes from. runtime/load.h does
+ * it with all engines. */
+
+/* Writes the listing to `out`; false where writing failed or memory ran out. */
+bool tn_module_list(const tn_module *module, const tn_engines *engines, FILE *out);
+
+/* The same, but only a record and the functions that it needs. */
+bool tn_module_list_record(const tn_module *module, const tn_engines *engines, tn_section section, uint32_t index,
+                           FILE *out);
+
+/* Loading a module with the engines that are given: what runtime/load.h does with all of them. */
+
+/* Loads and verifies a module. `limits` may be NULL (defaults). On success the caller owns *module. A module with
+ * sections or code of no engine that is given is refused. TN_INVALID (E0701 to E0703), TN_LIMIT (E0810), TN_MEMORY. */
+tn_status tn_module_read(const void *bytes, size_t size, const tn_engines *engines, const tn_module_limits *limits,
+                         tn_module **module, tn_error *error);
 
 #endif

@@ -11,7 +11,7 @@
 #include "compiler/notation.h"
 #include "lsp/folders.h"
 #include "runtime/base/array.h"
-#include "runtime/base/file_error.h"
+#include "runtime/base/file.h"
 #include "runtime/base/utf8.h"
 #include "studio/server/folder_parts.h"
 

@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "runtime/base/file_error.h"
+#include "runtime/base/file.h"
 #include "studio/server/folder_parts.h"
 
 /* A file that is written: all names are of one folder, which stays the same whatever others rename. */

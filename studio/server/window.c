@@ -9,7 +9,7 @@
 #include "include/tartan/base.h"
 #include "lsp/background.h"
 #include "lsp/exchange.h"
-#include "runtime/base/clock.h"
+#include "runtime/base/watch.h"
 #include "studio/desk/desk.h"
 #include "studio/server/file_requests.h"
 #include "studio/server/question_queue.h"

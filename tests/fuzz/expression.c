@@ -7,8 +7,8 @@
 #include "runtime/base/bytes.h"
 #include "runtime/growth/model/records.h"
 #include "runtime/load.h"
+#include "runtime/number/formula.h"
 #include "runtime/number/run.h"
-#include "runtime/number/sentence.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/text.h"
 

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "compiler/plan/check/amount.h"
-#include "runtime/base/length_style.h"
+#include "runtime/base/length.h"
 
 typedef struct tn_condition_builder {
     tn_check *check;

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "runtime/number/data.h"
+#include "runtime/number/formula.h"
 #include "runtime/number/run.h"
-#include "runtime/number/sentence.h"
 #include "runtime/number/shared.h"
 
 #define BATCH_MAX 32u                  /* sentences evaluated together, which share what they have in common */

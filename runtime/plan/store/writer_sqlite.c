@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "runtime/base/file_error.h"
+#include "runtime/base/file.h"
 #include "runtime/plan/store/sqlite_data.h"
 #include "runtime/plan/text/pack.h"
 

@@ -8,8 +8,8 @@
 
 #include <cmocka.h>
 
+#include "runtime/number/formula.h"
 #include "runtime/number/run.h"
-#include "runtime/number/sentence.h"
 #include "runtime/numeric/numeric.h"
 #include "tests/support/test_expression.h"
 
