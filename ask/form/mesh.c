@@ -6,8 +6,7 @@
 
 #include "ask/form/form.h"
 #include "ask/session/made.h"
-#include "runtime/field/normals.h"
-#include "runtime/field/volume.h"
+#include "runtime/field/field.h"
 #include "runtime/geometry/crossing.h"
 #include "runtime/geometry/measure.h"
 

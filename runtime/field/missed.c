@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/field/contour_parts.h"
+#include "runtime/field/contouring.h"
 
 /* How often a layer of blocks may ask for bounds: beside large grids about as long as sampling takes. Where nothing at
  * all was found, more: then it is to be proven that there is nothing. */

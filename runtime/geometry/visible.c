@@ -5,8 +5,7 @@
 #include <stdlib.h>
 
 #include "runtime/base/array.h"
-#include "runtime/geometry/crease.h"
-#include "runtime/geometry/twin.h"
+#include "runtime/geometry/edges.h"
 
 /* A triangle that faces the eye, before it. */
 typedef struct screen {

@@ -7,8 +7,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/base/buffer.h"
-#include "runtime/geometry/crease.h"
-#include "runtime/geometry/twin.h"
+#include "runtime/geometry/edges.h"
 #include "runtime/geometry/write.h"
 #include "runtime/geometry/write_text.h"
 

@@ -8,7 +8,6 @@
 #define TARTAN_SOLID_DESIGN_H
 
 #include "runtime/base/error.h"
-#include "runtime/geometry/union/box_genes.h"
 #include "runtime/geometry/union/cut_box.h"
 #include "runtime/module/module.h"
 #include "runtime/solid/exact.h"

@@ -8,7 +8,6 @@
 #include "runtime/geometry/union/box_tree.h"
 #include "runtime/geometry/union/contacts.h"
 #include "runtime/geometry/union/cover.h"
-#include "runtime/geometry/union/footprint.h"
 #include "runtime/geometry/union/union.h"
 #include "runtime/module/code.h"
 

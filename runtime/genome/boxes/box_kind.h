@@ -8,7 +8,7 @@
 #define TARTAN_GENOME_BOXES_BOX_KIND_H
 
 #include "runtime/genome/breeding/kind.h"
-#include "runtime/geometry/union/box_genes.h"
+#include "runtime/geometry/union/cut_box.h"
 
 /* What designs are bred with: all of it the caller's, and there as long as the kind. */
 typedef struct tn_box_breeding {

@@ -9,7 +9,6 @@
 #include "runtime/genome/breeding/chance.h"
 #include "runtime/genome/mapping/genome.h"
 #include "runtime/grammar/analysis.h"
-#include "runtime/grammar/depths.h"
 
 typedef enum tn_tree_method {
     TN_TREE_GROW,    /* any production that still fits */

@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "runtime/draw/axis.h"
 #include "runtime/draw/canvas.h"
+#include "runtime/draw/scales.h"
 #include "runtime/draw/type.h"
 #include "runtime/numeric/numeric.h"
 

@@ -6,7 +6,7 @@
 #include "runtime/base/array.h"
 #include "runtime/base/crew.h"
 #include "runtime/base/watch.h"
-#include "runtime/geometry/hidden/hidden_parts.h"
+#include "runtime/geometry/hidden/overlap.h"
 #include "runtime/geometry/vector.h"
 
 #define LEAF 24u       /* as many triangles are compared each with each */

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/geometry/union/union_parts.h"
+#include "runtime/geometry/union/grid.h"
 
 enum { ROUNDS = 16, CAREFUL = 48 /* corners up to which the best ear is looked for */ };
 

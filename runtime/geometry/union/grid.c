@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/geometry/union/union_parts.h"
+#include "runtime/geometry/union/grid.h"
 
 enum { NEAR = 4 }; /* steps: crossings were seen to be two apart */
 

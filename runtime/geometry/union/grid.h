@@ -1,6 +1,6 @@
 /* What the files of the union share: points and lines, counted in steps. Internal to union*.c. */
-#ifndef TARTAN_GEOMETRY_UNION_PARTS_H
-#define TARTAN_GEOMETRY_UNION_PARTS_H
+#ifndef TARTAN_GEOMETRY_UNION_GRID_H
+#define TARTAN_GEOMETRY_UNION_GRID_H
 
 #include "runtime/base/array.h"
 #include "runtime/geometry/union/union.h"
@@ -108,10 +108,5 @@ void tn_grid_planes(tn_grid *grid, const tn_cut_box *cells, size_t count);
 
 /* The boundary's triangles, from its polygons. */
 tn_status tn_grid_triangles(tn_grid *grid, tn_mesh *mesh, tn_error *error);
-
-/* Doubles vertices so that each edge has two triangles and each vertex one umbrella; gives positions. Where cells touch
- * along an edge and are joined round both of its ends, that needs a vertex in its middle: it is added to the grid's
- * splits, *again is set, and triangles are to be made anew. */
-tn_status tn_grid_separate(tn_grid *grid, tn_mesh *mesh, size_t *doubled, bool *again, tn_error *error);
 
 #endif

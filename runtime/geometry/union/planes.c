@@ -8,7 +8,7 @@
 
 #include "runtime/geometry/select_nth.h"
 #include "runtime/geometry/union/box_tree.h"
-#include "runtime/geometry/union/union_parts.h"
+#include "runtime/geometry/union/grid.h"
 
 enum {
     CUT_MAX = 4096, /* corners of a piece: each cut adds one, and a face has few edges */

@@ -1,6 +1,6 @@
 /* Paper sizes and drawing scales, as architects use them. Sizes in points, landscape. */
-#ifndef TARTAN_DRAW_PAPER_H
-#define TARTAN_DRAW_PAPER_H
+#ifndef TARTAN_DRAW_SCALES_H
+#define TARTAN_DRAW_SCALES_H
 
 #include <stddef.h>
 
@@ -25,5 +25,13 @@ void tn_scale_write(uint32_t denominator, bool metric, char *text, size_t size);
 
 /* Points on paper for a nanometre in the drawing, at 1:1. */
 #define TN_POINTS_PER_NM (72.0 / 25400000.0)
+
+/* The scale of a chart's axis: where its marks stand and how they are written. */
+
+/* 1, 2 or 5 times a power of ten, so that at most `marks` of them fit into the range. */
+double tn_axis_step(double range, double marks);
+
+/* Writes a mark that is a multiple of the step, its thousands apart: "1,250", "0.05". */
+void tn_axis_write(double value, double step, char *text, size_t size);
 
 #endif

@@ -1,6 +1,6 @@
 /* What taking a view leaves for drawing it. Internal to runtime/scene. */
-#ifndef TARTAN_SCENE_VIEW_PARTS_H
-#define TARTAN_SCENE_VIEW_PARTS_H
+#ifndef TARTAN_SCENE_SEEN_H
+#define TARTAN_SCENE_SEEN_H
 
 #include "runtime/draw/paint.h"
 #include "runtime/scene/view.h"
@@ -50,13 +50,6 @@ struct tn_view {
     uint32_t by_depth;
     tn_guides guides; /* as the eye sees them: to the right, up, towards it */
 };
-
-/* Takes guides into the view, which grows to show them. */
-tn_status tn_view_take_guides(tn_view *view, const tn_guides *guides, const tn_eye *eye, tn_error *error);
-
-/* Paint them: what is filled, below the form; lines, marks and texts over it. `brief`: values without their names. */
-void tn_view_paint_areas(tn_paint *paint, const tn_view *view, const tn_view_place *place);
-void tn_view_paint_marks(tn_paint *paint, const tn_view *view, const tn_view_place *place, bool brief);
 
 /* The colour of a face without a palette. Faces of groups are paler than lines of their colour, so that edges stand
  * out. */

@@ -1,9 +1,12 @@
-/* Knows the sizes of paper and the usual scales. */
-#include "runtime/draw/paper.h"
+/* Knows the sizes of paper and the usual scales of drawings, and chooses and writes the marks of an axis. */
+#include "runtime/draw/scales.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
+
+/* ---- knows the sizes of paper and the usual scales */
 
 #define MM(X) ((X)*72.0 / 25.4)
 #define INCH(X) ((X)*72.0)
@@ -59,4 +62,41 @@ void tn_scale_write(uint32_t denominator, bool metric, char *text, size_t size)
         }
     }
     snprintf(text, size, "1:%u", denominator);
+}
+
+/* ---- chooses and writes the marks of an axis */
+
+double tn_axis_step(double range, double marks)
+{
+    double step = 1;
+    while (step * marks < range)
+        step *= 10;
+    while (step / 10 * marks >= range && step > 1e-12)
+        step /= 10;
+    if (step / 5 * marks >= range)
+        return step / 5;
+    return step / 2 * marks >= range ? step / 2 : step;
+}
+
+/* How many digits after the point a multiple of the step has. */
+static int decimals_of(double step)
+{
+    int decimals = 0;
+    for (; decimals < 12 && fabs(step - floor(step + 0.5)) > 1e-6 * step; decimals++)
+        step *= 10;
+    return decimals;
+}
+
+void tn_axis_write(double value, double step, char *text, size_t size)
+{
+    char plain[400];
+    int decimals = decimals_of(step);
+    snprintf(plain, sizeof plain, "%.*f", decimals, fabs(value) < step / 2 ? 0 : value);
+    size_t whole = strcspn(plain, "."), sign = plain[0] == '-', at = 0;
+    for (size_t i = 0; plain[i] && at + 2 < size; i++) {
+        if (i > sign && i < whole && (whole - i) % 3 == 0)
+            text[at++] = ',';
+        text[at++] = plain[i];
+    }
+    text[at] = '\0';
 }

@@ -1,6 +1,6 @@
 /* The stages of meshing a field. Internal to runtime/field. */
-#ifndef TARTAN_FIELD_CONTOUR_PARTS_H
-#define TARTAN_FIELD_CONTOUR_PARTS_H
+#ifndef TARTAN_FIELD_CONTOURING_H
+#define TARTAN_FIELD_CONTOURING_H
 
 #include "runtime/base/crew.h"
 #include "runtime/field/contour.h"
@@ -67,8 +67,5 @@ void tn_contouring_count(const tn_contouring *c);
 /* The triangles: those of the table of cells, or with sharp edges. */
 tn_status tn_contour_cells(tn_contouring *c, tn_error *error);
 tn_status tn_contour_sharp_cells(tn_contouring *c, tn_error *error);
-
-/* Room for so many triangles in c->out->mesh, and where each begins. TN_LIMIT (E1415) or TN_MEMORY. */
-tn_status tn_contour_make_room(tn_contouring *c, uint64_t count, tn_error *error);
 
 #endif
