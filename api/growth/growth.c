@@ -6,8 +6,8 @@
 
 #include "api/growth/options.h"
 #include "runtime/growth/faults.h"
+#include "runtime/growth/growth.h"
 #include "runtime/growth/soundness.h"
-#include "runtime/growth/surface.h"
 
 static tartan_status make(const tartan_module *module, const tartan_growth_options *options, tartan_growth *growth,
                           tartan_error *error)

@@ -6,7 +6,7 @@
 
 #include "ask/place/buildings.h"
 #include "ask/place/kit.h"
-#include "runtime/place/count/list.h"
+#include "runtime/place/count/count.h"
 #include "runtime/place/write.h"
 
 typedef struct enumeration {

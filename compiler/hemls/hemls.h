@@ -13,7 +13,7 @@
 #include "compiler/common/lexical.h"
 #include "compiler/common/token.h"
 #include "compiler/common/words.h"
-#include "runtime/growth/model/records.h"
+#include "runtime/growth/model/system.h"
 #include "runtime/module/builder.h"
 #include "runtime/module/code.h"
 

@@ -6,7 +6,7 @@
 #include <stdio.h>
 
 #include "driver/place/place.h"
-#include "runtime/place/conditions.h"
+#include "runtime/place/measure.h"
 
 /* The model of this name, or the kit's only one where that is NULL; what is wrong is reported (E1317). */
 tn_status tn_kit_choose(tn_opened *opened, const char *name, uint32_t *model);

@@ -567,7 +567,7 @@ static bool draw_panel(tn_paint *paint, const tn_front_panel *panel, double top)
 
 static size_t rows_shown(const tn_front_drawing *d)
 {
-    return d->rows < TN_CHART_ROWS_SHOWN ? d->rows : ROWS_SHOWN;
+    return d->rows < TN_CHART_ROWS_SHOWN ? d->rows : TN_CHART_ROWS_SHOWN;
 }
 
 static double column_width(tn_paint *paint, const tn_front_drawing *d, size_t column)

@@ -155,4 +155,12 @@ static inline bool tn_cells_has(tn_cells *cells, const int32_t cell[3])
            1;
 }
 
+/* The shells of bounds, which fill their cells at once: nothing is placed through them. */
+
+/* The shell of a box about the frame; its heading does not count. */
+tn_status tn_bound_box(tn_cells *cells, const tn_frame *frame, const tn_step *step, tn_error *error);
+
+/* The shell of a ball about the origin. */
+tn_status tn_bound_ball(tn_cells *cells, int32_t radius, tn_error *error);
+
 #endif

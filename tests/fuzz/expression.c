@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "runtime/base/bytes.h"
-#include "runtime/growth/model/records.h"
+#include "runtime/growth/model/system.h"
 #include "runtime/load.h"
 #include "runtime/number/formula.h"
 #include "runtime/number/run.h"

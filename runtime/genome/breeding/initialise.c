@@ -1,12 +1,12 @@
 /* Makes first populations. */
-#include "runtime/genome/breeding/initialise.h"
+#include "runtime/genome/breeding/vary.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/genome/mapping/sentential.h"
-#include "runtime/genome/mapping/span.h"
+#include "runtime/genome/mapping/genome.h"
+#include "runtime/genome/mapping/mapper.h"
 
 #define NODES_MAX 100000u /* of one tree: loops and wide productions can make more than a depth limit bounds */
 

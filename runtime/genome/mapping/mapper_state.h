@@ -14,7 +14,6 @@
 
 #include "runtime/base/array.h"
 #include "runtime/genome/mapping/mapper.h"
-#include "runtime/genome/mapping/sentential.h"
 
 #define TN_NO_EDGE_ID UINT32_MAX
 #define TN_COPY 16u      /* short terminals are copied by this many bytes at once */
@@ -126,15 +125,9 @@ static inline bool tn_pay_for_text(uint64_t *steps, size_t length)
 /* Expands a rule at that depth to the end of the text. */
 tn_expansion tn_mapper_expand(tn_mapper *mapper, uint32_t rule, uint32_t depth, bool recorded);
 
-/* What tn_mapper_expand(mapper, 0, 1, false) does of a ge grammar, faster. */
-tn_expansion tn_mapper_expand_ge(tn_mapper *mapper);
-
 /* The whole of a position-independent mapping. Where it is not valid and recorded, the events are those of what was
  * derived. */
 tn_expansion tn_mapper_expand_places(tn_mapper *mapper, bool recorded);
-
-/* While repairing: an edge type occurs for the first time. */
-bool tn_repair_waits(tn_mapper *mapper, uint32_t id);
 
 /* Gives every edge type that occurs a rule: the sentence with them is in mapper->repaired (5.1). */
 tn_expansion tn_mapper_repair(tn_mapper *mapper, const tn_mapping_options *options);

@@ -13,7 +13,7 @@
 
 /* Faces, and from each an arrow to every face that has to be painted after it. Faces that lead to one another have no
  * order: they are one knot. */
-typedef struct tn_order {
+typedef struct paint_order {
     uint32_t count;
     uint32_t *arrow_first; /* [count + 1] */
     uint32_t *arrows;
@@ -22,7 +22,7 @@ typedef struct tn_order {
     uint32_t *members;    /* faces by knot */
     uint32_t knot_count;
     double *depth; /* [face] mean */
-} tn_order;
+} paint_order;
 
 /* Calls `paint` for each knot, the farthest of those first that nothing has to come before any more. */
 typedef tn_status tn_paint_knot(void *user, uint32_t knot, tn_error *error);
@@ -33,7 +33,7 @@ static tn_status painting_add(tn_painting *painting, tn_patch patch, tn_error *e
 
 #define NONE UINT32_MAX
 
-static void order_clear(tn_order *order)
+static void order_clear(paint_order *order)
 {
     free(order->arrow_first);
     free(order->arrows);
@@ -41,7 +41,7 @@ static void order_clear(tn_order *order)
     free(order->knot_first);
     free(order->members);
     free(order->depth);
-    *order = (tn_order){0};
+    *order = (paint_order){0};
 }
 
 /* ---- knots: the strongly connected parts (Tarjan 1972), without recursion */
@@ -53,7 +53,7 @@ typedef struct visit {
     uint32_t opened, visited, depth;
 } visit;
 
-static void enter(const tn_order *o, visit *v, uint32_t face)
+static void enter(const paint_order *o, visit *v, uint32_t face)
 {
     v->number[face] = v->low[face] = ++v->visited;
     v->open[v->opened++] = face;
@@ -61,7 +61,7 @@ static void enter(const tn_order *o, visit *v, uint32_t face)
     v->next[v->depth++] = o->arrow_first[face];
 }
 
-static void leave(tn_order *o, visit *v)
+static void leave(paint_order *o, visit *v)
 {
     uint32_t face = v->path[--v->depth];
     if (v->depth > 0) {
@@ -78,7 +78,7 @@ static void leave(tn_order *o, visit *v)
     o->knot_count++;
 }
 
-static void visit_from(tn_order *o, visit *v, uint32_t start)
+static void visit_from(paint_order *o, visit *v, uint32_t start)
 {
     enter(o, v, start);
     while (v->depth > 0) {
@@ -95,7 +95,7 @@ static void visit_from(tn_order *o, visit *v, uint32_t start)
     }
 }
 
-static tn_status find_knots(tn_order *o, tn_error *error)
+static tn_status find_knots(paint_order *o, tn_error *error)
 {
     uint32_t *space = calloc(5 * (size_t)o->count + 1, sizeof *space);
     if (!space)
@@ -127,17 +127,17 @@ static tn_status find_knots(tn_order *o, tn_error *error)
 /* ---- painting: of all knots that nothing has to come before any more, the farthest */
 
 typedef struct waiting {
-    const tn_order *order;
+    const paint_order *order;
     uint32_t *knots; /* a heap */
     uint32_t count;
 } waiting;
 
-static double depth_of(const tn_order *o, uint32_t knot)
+static double depth_of(const paint_order *o, uint32_t knot)
 {
     return o->depth[o->members[o->knot_first[knot]]];
 }
 
-static bool farther(const tn_order *o, uint32_t a, uint32_t b)
+static bool farther(const paint_order *o, uint32_t a, uint32_t b)
 {
     double x = depth_of(o, a), y = depth_of(o, b);
     return x < y || (x == y && o->members[o->knot_first[a]] < o->members[o->knot_first[b]]);
@@ -166,7 +166,7 @@ static uint32_t farthest(waiting *w)
     return top;
 }
 
-static tn_status order_walk(const tn_order *o, tn_paint_knot *paint, void *user, tn_error *error)
+static tn_status order_walk(const paint_order *o, tn_paint_knot *paint, void *user, tn_error *error)
 {
     uint32_t *before = calloc(2 * (size_t)o->knot_count + 1, sizeof *before); /* knots to be painted first; the heap */
     if (!before)
@@ -197,7 +197,7 @@ static tn_status order_walk(const tn_order *o, tn_paint_knot *paint, void *user,
 
 /* ---- */
 
-static void point_arrows(tn_order *o, const tn_face_pairs *befores)
+static void point_arrows(paint_order *o, const tn_face_pairs *befores)
 {
     for (size_t i = 0; i < befores->count; i++)
         o->arrow_first[befores->items[i].a + 1]++;
@@ -210,10 +210,10 @@ static void point_arrows(tn_order *o, const tn_face_pairs *befores)
 }
 
 /* Makes the order of a scene's faces. TN_LIMIT (E0820) for more than 2^32 pairs. Clear it in any case. */
-static tn_status order_make(const tn_scene *scene, const tn_face_pairs *befores, tn_order *o, tn_error *error)
+static tn_status order_make(const tn_scene *scene, const tn_face_pairs *befores, paint_order *o, tn_error *error)
 {
     size_t count = scene->face_count;
-    *o = (tn_order){.count = scene->face_count};
+    *o = (paint_order){.count = scene->face_count};
     if (befores->count >= NONE) {
         tn_fail(error, TN_LIMIT, E_PICTURE_TOO_LARGE, "the faces of this picture overlap too often to be drawn");
         tn_error_help(error, "draw an earlier step, or write a mesh instead");
@@ -575,7 +575,7 @@ typedef struct work {
     const tn_scene *scene;
     tn_seen_triangle *triangles;
     uint32_t *triangle_first; /* [face + 1] */
-    tn_order order;
+    paint_order order;
     tn_painting *painting;
 } work;
 
@@ -639,7 +639,7 @@ static tn_status cut_knot(work *w, const uint32_t *faces, size_t count, tn_error
 static tn_status paint_knot(void *user, uint32_t knot, tn_error *error)
 {
     work *w = user;
-    const tn_order *o = &w->order;
+    const paint_order *o = &w->order;
     if (tn_watch_stopped(w->scene->watch))
         return tn_fail_stopped(w->scene->watch, error);
     const uint32_t *faces = o->members + o->knot_first[knot];

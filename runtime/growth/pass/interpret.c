@@ -1,5 +1,4 @@
 /* Interprets a rewrite system's code for each edge: its guards to find the successor, the turtle to draw it. */
-#include "runtime/growth/pass/interpret.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -7,8 +6,8 @@
 #include "runtime/base/array.h"
 #include "runtime/base/random.h"
 #include "runtime/growth/model/turtle.h"
-#include "runtime/growth/pass/axes.h"
-#include "runtime/growth/pass/rewrite.h"
+#include "runtime/growth/pass/pass.h"
+#include "runtime/growth/pass/rows.h"
 
 typedef struct interpreter {
     tn_pass *pass;

@@ -102,4 +102,13 @@ static inline tn_cell_box tn_box_from(const tn_cell_box *box, const int32_t at[3
     return moved;
 }
 
+/* The parts of a kit as a search needs them: their boxes for each heading, and in which headings and images they look
+ * the same. */
+
+/* Fills choices->kinds and choices->boxes from the records of the rules' module. TN_MEMORY or TN_OK. */
+tn_status tn_kinds_make(tn_site_choices *choices, tn_error *error);
+
+/* The part in an image at x = 0 (axis 0) or z = 0 (axis 1), whose mirrored[axis] is below 4. */
+tn_frame tn_kind_mirror(const tn_kind_of_part *kind, const tn_frame *frame, int axis);
+
 #endif

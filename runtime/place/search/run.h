@@ -22,9 +22,7 @@ typedef struct tn_place_search_run {
     tn_error *error;
 } tn_place_search_run;
 
-tn_status tn_place_search_beam(tn_place_search_run *run);
 tn_status tn_place_search_anneal(tn_place_search_run *run);
-tn_status tn_place_search_exact(tn_place_search_run *run);
 
 /* Keeps a plan that is better than the best. */
 tn_status tn_place_search_keep(tn_place_search_run *run, const tn_standing *plan, const tn_model_score *score);

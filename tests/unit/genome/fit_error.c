@@ -8,8 +8,8 @@
 
 #include <cmocka.h>
 
-#include "runtime/genome/breeding/fit_error.h"
-#include "runtime/genome/breeding/lexicase.h"
+#include "runtime/genome/breeding/problem.h"
+#include "runtime/genome/breeding/select.h"
 #include "runtime/numeric/numeric.h"
 
 static double cost(tn_fit_error measure, const double *wanted, const double *values, size_t count)

@@ -3,10 +3,10 @@
  * The table of bases of such a face fits into two of AVX-512's registers, in which one instruction looks sixteen
  * references up. That takes a third of the instructions that looking them up one by one does, of which stamping is
  * made. */
-#ifndef TARTAN_GROWTH_JOIN_STAMP_LANES_H
-#define TARTAN_GROWTH_JOIN_STAMP_LANES_H
+#ifndef TARTAN_GROWTH_JOIN_STAMP_H
+#define TARTAN_GROWTH_JOIN_STAMP_H
 
-#include "runtime/growth/join/face_cut.h"
+#include "runtime/growth/join/pattern.h"
 
 #define TN_LANES_DARTS 8u
 
