@@ -10,7 +10,7 @@
 #define TARTAN_COMPILER_FORMAT_H
 
 #include "compiler/common/diagnostic.h"
-#include "compiler/notation.h"
+#include "compiler/compile.h"
 
 /* Formats a file's text; `path` is its name in diagnostics. *formatted, zero-ended, is the caller's to free().
  * The text is added to the diagnostics' sources. TN_INVALID where it has errors of syntax, TN_LIMIT, TN_MEMORY: all

@@ -4,7 +4,7 @@
 
 #include <jansson.h>
 
-#include "compiler/notation.h"
+#include "compiler/compile.h"
 #include "driver/open/served.h"
 #include "lsp/index.h"
 #include "lsp/lines.h"

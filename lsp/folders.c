@@ -7,7 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "compiler/notation.h"
+#include "compiler/compile.h"
 #include "runtime/base/array.h"
 
 static void add(tn_rule_files *files, const char *path)

@@ -4,7 +4,7 @@
 
 #include <jansson.h>
 
-#include "compiler/common/text_lines.h"
+#include "compiler/common/source.h"
 
 /* {"line", "character"} of a byte; {"start", "end"} of a stretch. */
 json_t *tn_lines_position(const tn_lines *lines, size_t offset);

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "ask/session/questions.h"
-#include "compiler/notation.h"
+#include "compiler/compile.h"
 #include "compiler/plan/syntax/program.h"
 #include "runtime/base/nearest.h"
 

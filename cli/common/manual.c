@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "compiler/notation.h"
+#include "compiler/compile.h"
 
 /* Writes text so that roff takes none of it for its own: backslashes, minus signs, and dots or quotes that start a
  * line. */

@@ -7,8 +7,7 @@
 #define TARTAN_COMPILER_COMMON_NOTATION_H
 
 #include "compiler/common/compilation.h"
-#include "compiler/common/format_tokens.h"
-#include "compiler/common/listing.h"
+#include "compiler/common/layout.h"
 #include "compiler/common/token.h"
 #include "compiler/common/words.h"
 #include "runtime/module/module.h"

@@ -7,9 +7,9 @@
 #define TARTAN_COMPILER_FIELD_FIELD_H
 
 #include "compiler/common/expression.h"
-#include "compiler/common/format_tokens.h"
 #include "compiler/common/import.h"
-#include "compiler/common/listing.h"
+#include "compiler/common/layout.h"
+#include "compiler/common/token.h"
 #include "compiler/common/words.h"
 #include "compiler/hemls/hemls.h"
 
@@ -83,9 +83,6 @@ tn_field_file *tn_parse_field(tn_arena *arena, tn_diagnostics *diagnostics, uint
 void *tn_field_lexer_new(tn_growth_parse *parse);
 void tn_field_lexer_free(void *scanner);
 
-/* Does a statement start with this word? */
-bool tn_field_heads(const char *text, size_t size);
-
 /* Constructors; out of memory is the arena's to remember. */
 tn_field_parameters tn_field_parameter_add(tn_growth_parse *parse, tn_field_parameters list, tn_field_text name);
 void tn_field_define(tn_growth_parse *parse, tn_field_statement kind, tn_span span, tn_field_text name, const char *doc,
@@ -150,9 +147,6 @@ uint32_t tn_field_expand(tn_field_nodes *nodes, const tn_expression *expression)
 /* TN_OK, TN_INVALID (in the diagnostics) or TN_MEMORY. */
 tn_status tn_emit_field(tn_builder *builder, tn_arena *arena, tn_diagnostics *diagnostics,
                         const tn_checked_fields *checked, tn_error *error);
-
-void tn_format_field(tn_format *format);
-void tn_field_list(tn_listing *listing);
 
 /* ---- words: sets of the places of words.def, as TN_FIELD_AT(FORMULA) */
 

@@ -9,7 +9,7 @@
 
 #include "compiler/common/arena.h"
 #include "compiler/common/diagnostic.h"
-#include "compiler/common/format_tokens.h"
+#include "compiler/common/layout.h"
 #include "compiler/common/lexical.h"
 #include "compiler/common/token.h"
 #include "compiler/common/words.h"
@@ -156,9 +156,6 @@ void tn_growth_stray(tn_growth_parse *parse, tn_span span, const char *help);
 /* Reports E0001: what was found, what could have stood there. */
 void tn_growth_syntax_error(tn_growth_parse *parse, tn_span span, const char *found, const char *const *expected,
                             size_t count, const char *help);
-
-/* Lays out a .hemls file. */
-void tn_format_hemls(tn_format *format);
 
 /* ---- meaning */
 

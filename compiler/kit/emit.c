@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compiler/common/emit_sources.h"
+#include "compiler/common/import.h"
 #include "compiler/kit/kit.h"
 
 /* A symbol of the grammar, whose productions are written when its turn comes. */
@@ -451,10 +451,10 @@ static void emit_part(emitting *e, const tn_kit_part *part)
     for (uint32_t i = 0; i < part->slope_count; i++) {
         const tn_kit_slope *slope = &part->slopes[i];
         const tn_kit_box *box = &slope->whole;
-        tn_builder_add_PART_SLOPE(
-            b, &(tn_part_slope_record){box->low[0], box->low[1], box->low[2], box->high[0], box->high[1], box->high[2],
-                                       slope->sides[0], slope->sides[1], record.box_first + slope->first,
-                                       slope->count});
+        tn_builder_add_PART_SLOPE(b,
+                                  &(tn_part_slope_record){box->low[0], box->low[1], box->low[2], box->high[0],
+                                                          box->high[1], box->high[2], slope->sides[0], slope->sides[1],
+                                                          record.box_first + slope->first, slope->count});
     }
     for (uint32_t i = 0; i < part->joint_count; i++) {
         const tn_kit_joint *joint = &part->joints[i];

@@ -3,8 +3,8 @@
 #include <string.h>
 #include <strings.h>
 
+#include "compiler/common/diagnostic.h"
 #include "compiler/common/lexical.h"
-#include "compiler/common/number_ranges.h"
 #include "compiler/kit/kit.h"
 #include "runtime/geometry/union/wide.h"
 

@@ -2,7 +2,7 @@
  * neighbouring lines are lined up, their numbers at the point. */
 #include <string.h>
 
-#include "compiler/common/format_tokens.h"
+#include "compiler/common/layout.h"
 #include "compiler/study/study.h"
 
 enum {

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compiler/common/ldraw_library.h"
+#include "compiler/common/compilation.h"
 #include "driver/open/missing.h"
 #include "driver/open/suggest_file.h"
 #include "runtime/base/file.h"

@@ -2,7 +2,7 @@
 #ifndef TARTAN_DRIVER_OPEN_ATTACHED_H
 #define TARTAN_DRIVER_OPEN_ATTACHED_H
 
-#include "compiler/common/resolver.h"
+#include "compiler/common/compilation.h"
 
 /* Reads them from where they lie, beside the file that names them. For several threads at once. */
 extern const tn_attachments tn_file_attachments;

@@ -7,7 +7,7 @@
 #ifndef TARTAN_DRIVER_OPEN_FILES_H
 #define TARTAN_DRIVER_OPEN_FILES_H
 
-#include "compiler/common/resolver.h"
+#include "compiler/common/compilation.h"
 #include "driver/open/kept_texts.h"
 #include "driver/open/stdlib_dirs.h"
 

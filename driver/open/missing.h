@@ -2,7 +2,7 @@
 #ifndef TARTAN_DRIVER_OPEN_MISSING_H
 #define TARTAN_DRIVER_OPEN_MISSING_H
 
-#include "compiler/common/resolver.h"
+#include "compiler/common/compilation.h"
 #include "driver/open/stdlib_dirs.h"
 
 /* Is it a name of the standard library: without folder and extension? */

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compiler/common/ldraw_library.h"
+#include "compiler/common/compilation.h"
 #include "driver/open/missing.h"
 #include "driver/open/stdlib_texts.h"
 #include "runtime/geometry/boundary_mesh.h"

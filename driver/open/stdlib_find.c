@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "compiler/common/import.h"
-#include "compiler/notation.h"
+#include "compiler/compile.h"
 #include "driver/open/stdlib_dirs.h"
 #include "runtime/base/nearest.h"
 

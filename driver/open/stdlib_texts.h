@@ -2,7 +2,7 @@
 #ifndef TARTAN_DRIVER_OPEN_STDLIB_TEXTS_H
 #define TARTAN_DRIVER_OPEN_STDLIB_TEXTS_H
 
-#include "compiler/common/resolver.h"
+#include "compiler/common/compilation.h"
 
 typedef struct tn_stdlib_text {
     const char *recorded; /* what a module calls it: "<stdlib>/shapes.field" */

@@ -11,7 +11,7 @@
 #include <unistd.h>
 #include <xxhash.h>
 
-#include "compiler/notation.h"
+#include "compiler/compile.h"
 #include "runtime/base/array.h"
 #include "runtime/base/file.h"
 #include "runtime/base/utf8.h"

@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "compiler/notation.h"
+#include "compiler/compile.h"
 #include "lsp/folders.h"
 #include "runtime/base/array.h"
 #include "runtime/base/file.h"

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "compiler/notation.h"
+#include "compiler/compile.h"
 #include "driver/open/open.h"
 #include "runtime/geometry/mesh.h"
 #include "runtime/place/count/count.h"
