@@ -1,4 +1,4 @@
-/* Places of the language server protocol as JSON (compiler/common/text_lines.h). */
+/* Places of the language server protocol as JSON (compiler/common/source.h). */
 #ifndef TARTAN_LSP_LINES_H
 #define TARTAN_LSP_LINES_H
 

@@ -105,7 +105,7 @@ typedef struct tn_compilation {
     tn_diagnostics diagnostics;
     tn_arena *arena;
     const tn_input *input;                 /* while it is compiled; NULL afterwards */
-    const struct tn_number_ranges *ranges; /* of its numbers (number_ranges.h) */
+    const struct tn_number_ranges *ranges; /* of its numbers (diagnostic.h) */
     struct tn_program *program;            /* checked; NULL where there were errors */
     /* for editors, of a .plan file, and also where there were errors: the files with their syntax trees (import.h), and
      * what became of them (check.h) */
@@ -117,7 +117,7 @@ typedef struct tn_compilation {
 } tn_compilation;
 
 /* How a text asks for a file of the LDraw library that the user has: by a request with this extension, whose path is
- * the file's name there (resolver.h, tn_attachments.bytes). TN_IO, E0901, where there is none. */
+ * the file's name there (tn_attachments.bytes). TN_IO, E0901, where there is none. */
 
 #define TN_LDRAW_LIBRARY ".dat"
 

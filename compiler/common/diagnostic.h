@@ -54,9 +54,8 @@ typedef struct tn_diagnostics {
     size_t dropped;     /* past the limit */
     bool failed;        /* out of memory while collecting */
     bool stopped;       /* work ended because nobody wanted it any more: nobody's mistake, and not listed */
-    struct tn_number_ranges
-        *ranges;           /* what checking found of numbers is noted there (number_ranges.h); NULL: nowhere */
-    tn_diagnostic scratch; /* what is past the limit goes here and is forgotten */
+    struct tn_number_ranges *ranges; /* what checking found of numbers is noted there; NULL: nowhere */
+    tn_diagnostic scratch;           /* what is past the limit goes here and is forgotten */
 } tn_diagnostics;
 
 void tn_diagnostics_init(tn_diagnostics *list, tn_sources *sources);

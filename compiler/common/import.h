@@ -1,6 +1,6 @@
 /* `use`: gets and parses a text and all that it uses, each once.
  *
- * What a path means is the resolver's business (resolver.h), and what parsing means the notation's: import.c is the
+ * What a path means is the resolver's business (compilation.h), and what parsing means the notation's: import.c is the
  * same for all. Texts that use each other in a circle are an error that names the chain; a text that two others use is
  * parsed once.
  *

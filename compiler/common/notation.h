@@ -1,6 +1,6 @@
 /* What a notation is: a row of compiler/notations.def and a front end, which its folder gives as one constant.
  *
- * A front end reads a text for its tokens, compiles it, lays it out and lists what it has. compiler/notation.h has the
+ * A front end reads a text for its tokens, compiles it, lays it out and lists what it has. compiler/compile.h has the
  * table.
  */
 #ifndef TARTAN_COMPILER_COMMON_NOTATION_H

@@ -320,7 +320,7 @@ void tn_kit_unknown(tn_kit *kit, const tn_names *names, const char *kind, tn_spa
 /* "did you mean" among the names of a table, or `otherwise`. */
 void tn_kit_suggest(tn_kit *kit, tn_diagnostic *d, const tn_names *names, const char *wrong, const char *otherwise);
 
-/* ---- parts (part.c), spaces (space.c), rules (rule.c), models (model.c, search.c) */
+/* ---- parts (part.c), spaces (space.c), rules (rule.c), models (model.c) */
 void tn_kit_check_part(tn_kit *kit, tn_kit_part *part);
 
 bool tn_kit_axis(tn_kit *kit, const tn_kit_text *word, tn_axis *axis);

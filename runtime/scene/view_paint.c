@@ -214,12 +214,11 @@ tn_status tn_view_join(tn_view *view, tn_error *error)
     return join_all_edges(view) ? TN_OK : tn_fail_memory(error);
 }
 
-/* ==== where lines end at corners of faces that are painted after them.
- *  Faces are painted one over another, each with its lines, which reach half their width into the faces beside them.
- * Such a face has that line at one of its sides, too, and draws it again; but not one that touches it with a corner
- * alone, as pieces of faces do. There its filling, and the hairlines that close seams, would cut into the line. So
- * seams end where they come near to a line; and where the angle is sharp, lines are mended as far as the filling and
- * the seam reach into them */
+/* ==== where lines end at corners of faces that are painted after them. Faces are painted one over another, each with
+ * its lines, which reach half their width into the faces beside them. Such a face has that line at one of its sides,
+ * too, and draws it again; but not one that touches it with a corner alone, as pieces of faces do. There its filling,
+ * and the hairlines that close seams, would cut into the line. So seams end where they come near to a line; and where
+ * the angle is sharp, lines are mended as far as the filling and the seam reach into them */
 
 #define GRID 1e6     /* points nearer than this share of the form are one */
 #define BESIDE 1e-4F /* of a line's direction: beside it */

@@ -85,10 +85,9 @@ void tn_design_cell(const tn_design *design, uint32_t box, uint32_t image, tn_cu
             tn_cut_box_mirror(cell, axis);
 }
 
-/* ==== squashes boxes that overlap (Bentley, chapter 4.3.1 to 4.3.3).
- *  Boxes only shrink, so that the pairs that overlap as written are all that can ever need it. They are found by a tree
- * of boxes and taken in the chapter's order; only the boxes as written are stored, and an image is made when it is
- * compared */
+/* ==== squashes boxes that overlap (Bentley, chapter 4.3.1 to 4.3.3). Boxes only shrink, so that the pairs that overlap
+ * as written are all that can ever need it. They are found by a tree of boxes and taken in the chapter's order; only
+ * the boxes as written are stored, and an image is made when it is compared */
 
 /* Box i and the image of box j; i <= j. Both are squashed by the same rule if they still overlap at their turn. */
 typedef struct pair {

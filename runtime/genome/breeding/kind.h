@@ -14,7 +14,7 @@
  *
  * Genomes that come from files are read by whoever knows the notation (the driver), and given as seeds.
  *
- * There are three kinds: strings of codons, which a grammar maps (codon_kind.h); expressions of fields as trees
+ * There are three kinds: strings of codons, which a grammar maps (codon_kind.c); expressions of fields as trees
  * (runtime/genome/tree); and lists of boxes (runtime/genome/boxes).
  */
 #ifndef TARTAN_GENOME_BREEDING_KIND_H

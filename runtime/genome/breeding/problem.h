@@ -56,7 +56,7 @@ typedef struct tn_fit_options {
     unsigned threads;
 } tn_fit_options;
 
-/* The error of a sentence, read as arithmetic (runtime/number/sentence.h) in the variables named, at points
+/* The error of a sentence, read as arithmetic (runtime/number/formula.h) in the variables named, at points
  * columns[variable][point]; the last column is the value wanted. Copies the numbers. */
 tn_status tn_problem_fit(const char *const *names, const double *const *columns, size_t variables, size_t points,
                          const tn_fit_options *options, tn_problem **problem, tn_error *error);

@@ -14,7 +14,7 @@ typedef enum tn_selection {
     TN_SELECT_TRUNCATION, /* any of the best share */
     TN_SELECT_ROULETTE,   /* in proportion to how much better than the worst */
     TN_SELECT_NSGA2,      /* tournament by front and crowding; survivors likewise, of parents and children together */
-    TN_SELECT_LEXICASE,   /* the best in a random case, of these the best in another, and so on (lexicase.h) */
+    TN_SELECT_LEXICASE,   /* the best in a random case, of these the best in another, and so on */
     TN_SELECT_EPSILON_LEXICASE, /* likewise, where errors that differ little count as equal */
     TN_SELECT_COUNT
 } tn_selection;

@@ -1,11 +1,10 @@
 /* What the parts of mapping share: the mapper's scratch memory, how a genome is read, and how steps are recorded. Of no
  * use elsewhere.
  *
- * mapper.c     one mapping from begin to end
- * expand.c     the machine for both dialects, with and without recording
- * expand_ge.c  the same for what is derived most: the ge dialect, nothing recorded
- * expand_places.c  position-independent mapping, where codons say which non-terminal comes next
- * repair.c     rules for edge types that have none
+ * - mapper.c: one mapping from begin to end;
+ * - expand.c: the machine for both dialects, with and without recording; the same for what is derived most (the ge
+ *   dialect, nothing recorded); position-independent mapping, where codons say which non-terminal comes next; and rules
+ *   for edge types that have none.
  */
 #ifndef TARTAN_GENOME_MAPPING_MAPPER_STATE_H
 #define TARTAN_GENOME_MAPPING_MAPPER_STATE_H

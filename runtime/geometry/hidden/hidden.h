@@ -1,8 +1,8 @@
 /* Which faces hide which: the order in which a picture of them is painted.
  *
  * Painting nearer faces over farther ones shows what is visible - once there is such an order. Faces that overlap in
- * the picture are compared where they do (overlap.c), and an order is made of that (order.c). Faces that pass through
- * one another, or lie over one another in a circle, have none: they are cut into pieces that have (cut.c). The result
+ * the picture are compared where they do (overlap.c), and an order is made of that. Faces that pass through
+ * one another, or lie over one another in a circle, have none: they are cut into pieces that have. The result
  * is exact for flat faces; a warped one is compared and cut by the triangles that fill it.
  *
  * Costs: comparisons grow with the overlaps in the picture; only faces without an order are cut, which can take the

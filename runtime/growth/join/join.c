@@ -316,10 +316,9 @@ bool tn_loop_expand(tn_loop *loop, const tn_pass *pass, uint32_t face, bool bran
     return true;
 }
 
-/* ==== joining so that mirrored branches join alike (`Even`, docs/growth.md).
- *  Pairs are taken nearest first, all that are equally near together. Of those, a pair joins only if it shares no
- * branch with another, does not cross another, and is the only one that links its vertices. What is left then is the
- * same in whatever order it joins */
+/* ==== joining so that mirrored branches join alike (`Even`, docs/growth.md). Pairs are taken nearest first, all that
+ * are equally near together. Of those, a pair joins only if it shares no branch with another, does not cross another,
+ * and is the only one that links its vertices. What is left then is the same in whatever order it joins */
 
 /* Pairs of one distance, and what of them is where on the loop. */
 typedef struct tie {
@@ -477,7 +476,7 @@ static tn_join_outcome join_tie(tie *t, const tn_pass *pass, uint32_t face)
     return TN_JOINED;
 }
 
-/* The way of `Even` (join_even.c): of pairs that are equally near, those that exclude each other do not join, so that
+/* The way of `Even`: of pairs that are equally near, those that exclude each other do not join, so that
  * no join hangs on the order of branches. */
 static tn_join_outcome loop_join_even(tn_loop *loop, const tn_pass *pass, uint32_t face)
 {

@@ -127,7 +127,7 @@ bool tn_loop_expand(tn_loop *loop, const tn_pass *pass, uint32_t face, bool bran
 tn_join_outcome tn_loop_join_branches(tn_loop *loop, const tn_pass *pass, uint32_t face, tn_pair_set *taken);
 
 /* The two ways to do that: looking at all pairs, which is quick where there are few branches, and asking each branch
- * for its nearest (join_many.c). */
+ * for its nearest (branch_tree.c). */
 tn_join_outcome tn_loop_join_few(tn_loop *loop, const tn_pass *pass, uint32_t face, tn_pair_set *taken);
 tn_join_outcome tn_loop_join_many(tn_loop *loop, const tn_pass *pass, uint32_t face, tn_pair_set *taken);
 

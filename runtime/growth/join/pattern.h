@@ -1,7 +1,7 @@
 /* Faces alike: the same edges replaced by the same templates, one after another round the face.
  *
  * What joins in such faces, and how they are then cut, depends only on how the branches lie: which pairs are opposed
- * and which are nearer. So the first face of each pattern and order of pairs is worked out by loop.c and join.c, and
+ * and which are nearer. So the first face of each pattern and order of pairs is worked out by join.c, and
  * what they find is kept as a cut of references; of every other face only the directions (and where pairs compete or
  * make several faces, the distances) are worked out. A regular surface of millions of faces has a handful of patterns.
  *

@@ -3,16 +3,16 @@
  * A step is one pass for all groups of rules (Sync) or one for each group. A pass reads the old map and writes a new
  * one:
  *
- *   survey   each edge side's vertex and face, each face's normal                            (survey.c)
+ *   survey   each edge side's vertex and face, each face's normal                            (match.c)
  *   match    which template, if any, replaces each edge                                      (match.c)
  *   rewrite  numbers and states of what replaces each edge, its vertices, its branches' aims  (rewrite.c)
  *   decide   which branches of each face join, and into which loops the face is cut           (decide.c)
- *   number   joined edges, by their lower branch; faces, by the order of their making         (number.c, faces.c)
+ *   number   joined edges, by their lower branch; faces, by the order of their making         (rewrite.c, decide.c)
  *   stamp    every dart of the new map written once, in its place                             (stamp.c)
  *
- * Matching and rewriting have a plain way too, which interprets the rules' code for every edge (interpret.h).
- * Deciding one face is the work of loop.c and join.c; face_cut.c keeps what they found, and pattern.c knows it again
- * where another face has the same edges replaced by the same templates.
+ * Matching and rewriting have a plain way too, which interprets the rules' code for every edge (interpret.c).
+ * Deciding one face is the work of join.c; pattern.c keeps what it found, and knows it again if another face has the
+ * same edges replaced by the same templates.
  */
 #ifndef TARTAN_GROWTH_PASS_PASS_H
 #define TARTAN_GROWTH_PASS_PASS_H
@@ -164,12 +164,12 @@ typedef struct tn_pass {
     /* decide */
     uint32_t *joints; /* [branch] where it is a joined pair's lower one: the edge's state, then its number; others:
                          TN_NONE */
-    uint32_t *cut_of; /* [face] how it is cut (face_cut.h) */
+    uint32_t *cut_of; /* [face] how it is cut (pattern.h) */
     uint32_t *made;   /* [rank of a face] its joins, then the rank of the first face that they make; NULL: no ranks */
     struct tn_face_chunk *chunks;
     uint32_t chunk_count;
     /* stamp */
-    bool has_lanes; /* the processor has them (stamp_lanes.h) */
+    bool has_lanes; /* the processor has them (stamp.h) */
 } tn_pass;
 
 /* Who works on a pass. */

@@ -85,7 +85,7 @@ static inline void tn_cell_box_widen(tn_cell_box *all, const tn_cell_box *box)
 
 typedef struct tn_frame {
     int32_t at[3];
-    uint32_t heading; /* a turn (turns.h); in connection grammars, and where parts stay upright, 0 to 3 */
+    uint32_t heading; /* a turn; in connection grammars, and where parts stay upright, 0 to 3 */
     int32_t colour;
 } tn_frame;
 
