@@ -12,6 +12,7 @@
 #include "compiler/common/token.h"
 #include "compiler/common/words.h"
 #include "compiler/hemls/hemls.h"
+#include "runtime/base/hash_table.h"
 
 typedef enum tn_field_statement { TN_FIELD_LET, TN_FIELD_FUNCTION, TN_FIELD_SURFACE } tn_field_statement;
 
@@ -132,8 +133,7 @@ typedef struct tn_field_nodes {
     const tn_checked_fields *checked;
     tn_field_node *items;
     uint32_t count, capacity;
-    uint32_t *table; /* by what they are; 0: free, else one more than the index */
-    uint32_t table_size;
+    tn_hash_table index; /* by what they are; in the arena */
     uint64_t steps;
     const char *const *mesh_paths; /* that distances are measured from, each once */
     uint32_t mesh_count;

@@ -9,18 +9,14 @@
 #include "runtime/base/bytes.h"
 
 #define DICTIONARY_MOST 65536u
-#define SLOTS_FIRST 256u /* a power of two, as all larger ones */
 
 tn_status tn_numbers_new(tn_numbers *numbers, unsigned bytes, size_t page, tn_error *error)
 {
-    *numbers = (tn_numbers){.bytes = bytes,
-                            .places = calloc(page, sizeof *numbers->places),
-                            .slots = calloc(SLOTS_FIRST, sizeof *numbers->slots),
-                            .slot_count = SLOTS_FIRST};
-    bool made = numbers->places && numbers->slots;
-    if (made)
-        tn_numbers_clear(numbers);
-    return made ? TN_OK : tn_fail_memory(error);
+    *numbers = (tn_numbers){.bytes = bytes, .places = calloc(page, sizeof *numbers->places)};
+    if (!numbers->places)
+        return tn_fail_memory(error);
+    tn_numbers_clear(numbers);
+    return TN_OK;
 }
 
 void tn_numbers_free(tn_numbers *numbers)
@@ -28,12 +24,12 @@ void tn_numbers_free(tn_numbers *numbers)
     free(numbers->places);
     free(numbers->plain.data);
     free(numbers->dictionary);
-    free(numbers->slots);
+    tn_hash_clear(&numbers->index);
 }
 
 void tn_numbers_clear(tn_numbers *numbers)
 {
-    memset(numbers->slots, 0, numbers->slot_count * sizeof *numbers->slots);
+    tn_hash_forget(&numbers->index);
     numbers->known = 0;
     numbers->full = numbers->mixed = false;
     numbers->least = INT64_MAX;
@@ -42,45 +38,32 @@ void tn_numbers_clear(tn_numbers *numbers)
 
 /* ---- the dictionary */
 
-/* The slot that has the number, or the empty one where it belongs. */
-static uint32_t *find_slot(const tn_numbers *numbers, int64_t value)
+typedef struct wanted_number {
+    const int64_t *dictionary;
+    int64_t value;
+} wanted_number;
+
+static bool is_wanted(const void *context, uint32_t place)
 {
-    size_t last = numbers->slot_count - 1;
-    size_t slot = (size_t)((uint64_t)value * UINT64_C(0x9E3779B97F4A7C15) >> 32) & last;
-    while (numbers->slots[slot] && numbers->dictionary[numbers->slots[slot] - 1] != value)
-        slot = (slot + 1) & last;
-    return &numbers->slots[slot];
+    const wanted_number *w = context;
+    return w->dictionary[place] == w->value;
 }
 
-/* Room for one number more; half of the slots stay empty. */
-static bool make_room(tn_numbers *numbers)
+/* Where the number is in the dictionary, into which it is put if there is a place left; *place: TN_HASH_NONE if not.
+ */
+static bool find_place(tn_numbers *numbers, int64_t value, uint32_t *place)
 {
+    uint64_t hash = (uint64_t)value * UINT64_C(0x9E3779B97F4A7C15) >> 32;
     if (!tn_array_reserve(&numbers->dictionary, &numbers->known_room, numbers->known, 1, sizeof *numbers->dictionary))
         return false;
-    if (2 * numbers->known < numbers->slot_count)
-        return true;
-    uint32_t *slots = calloc(2 * numbers->slot_count, sizeof *slots);
-    if (!slots)
+    wanted_number wanted = {numbers->dictionary, value};
+    *place = (uint32_t)numbers->known;
+    if (numbers->known == DICTIONARY_MOST)
+        *place = tn_hash_find(&numbers->index, hash, is_wanted, &wanted);
+    else if (tn_hash_enter(&numbers->index, hash, is_wanted, &wanted, place, NULL) != TN_OK)
         return false;
-    free(numbers->slots);
-    numbers->slots = slots;
-    numbers->slot_count *= 2;
-    for (size_t i = 0; i < numbers->known; i++)
-        *find_slot(numbers, numbers->dictionary[i]) = (uint32_t)i + 1;
-    return true;
-}
-
-/* Puts the number into the dictionary, where it is new and there is a place left. */
-static bool add_to_dictionary(tn_numbers *numbers, int64_t value, uint32_t **slot)
-{
-    *slot = find_slot(numbers, value);
-    if (**slot || numbers->known == DICTIONARY_MOST)
-        return true;
-    if (!make_room(numbers))
-        return false;
-    *slot = find_slot(numbers, value);
-    numbers->dictionary[numbers->known] = value;
-    **slot = (uint32_t)++numbers->known;
+    if (*place == numbers->known)
+        numbers->dictionary[numbers->known++] = value;
     return true;
 }
 
@@ -95,13 +78,13 @@ static void leave_dictionary(tn_numbers *numbers, size_t before)
 bool tn_numbers_add(tn_numbers *numbers, int64_t value)
 {
     size_t i = numbers->count++;
-    uint32_t *slot = NULL;
+    uint32_t place = TN_HASH_NONE;
     numbers->least = value < numbers->least ? value : numbers->least;
     numbers->most = value > numbers->most ? value : numbers->most;
-    if (!numbers->full && !add_to_dictionary(numbers, value, &slot))
+    if (!numbers->full && !find_place(numbers, value, &place))
         return false;
-    if (slot && *slot) {
-        numbers->places[i] = (uint16_t)(*slot - 1);
+    if (place != TN_HASH_NONE) {
+        numbers->places[i] = (uint16_t)place;
         return true;
     }
     if (!numbers->full)

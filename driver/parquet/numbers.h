@@ -4,6 +4,7 @@
 #define TARTAN_DRIVER_PARQUET_NUMBERS_H
 
 #include "driver/parquet/page.h"
+#include "runtime/base/hash_table.h"
 
 typedef struct tn_numbers {
     unsigned bytes;   /* of a number: 4 or 8 */
@@ -12,8 +13,7 @@ typedef struct tn_numbers {
     size_t count;     /* of the page */
     int64_t *dictionary;
     size_t known, known_room;
-    uint32_t *slots; /* by hash: 1 + place in the dictionary, or 0 */
-    size_t slot_count;
+    tn_hash_table index; /* places in the dictionary */
     bool full;           /* a number had no room there: from now on none is looked up */
     bool mixed;          /* some page of the row group has numbers as they are */
     int64_t least, most; /* of the row group */

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/hash_table.h"
 #include "runtime/base/watch.h"
 
 /* ==== keeps meshes as arrays */
@@ -127,31 +128,30 @@ static uint64_t hash_place(const double *p)
     return hash;
 }
 
+typedef struct wanted_place {
+    const tn_mesh *mesh;
+    const double *at;
+} wanted_place;
+
+static bool is_at(const void *context, uint32_t vertex)
+{
+    const wanted_place *w = context;
+    const double *p = w->at, *q = place(w->mesh, vertex);
+    return p[0] == q[0] && p[1] == q[1] && p[2] == q[2];
+}
+
 /* For each vertex the first one at its place. */
 static tn_status find_first(const tn_mesh *mesh, uint32_t *first, tn_error *error)
 {
-    size_t capacity = 64;
-    while (capacity < 2 * mesh->vertex_count)
-        capacity *= 2;
-    uint32_t *slots = malloc(capacity * sizeof *slots);
-    if (!slots)
-        return tn_fail_memory(error);
-    memset(slots, 0xff, capacity * sizeof *slots);
-    for (uint32_t v = 0; v < mesh->vertex_count; v++) {
-        const double *p = place(mesh, v);
-        size_t i = (size_t)hash_place(p) & (capacity - 1);
-        while (slots[i] != UINT32_MAX) {
-            const double *q = place(mesh, slots[i]);
-            if (p[0] == q[0] && p[1] == q[1] && p[2] == q[2])
-                break;
-            i = (i + 1) & (capacity - 1);
-        }
-        if (slots[i] == UINT32_MAX)
-            slots[i] = v;
-        first[v] = slots[i];
+    tn_hash_table index = {0};
+    tn_status status = tn_hash_reserve(&index, mesh->vertex_count, error);
+    for (uint32_t v = 0; v < mesh->vertex_count && status == TN_OK; v++) {
+        wanted_place wanted = {mesh, place(mesh, v)};
+        first[v] = v;
+        status = tn_hash_enter(&index, hash_place(wanted.at), is_at, &wanted, &first[v], error);
     }
-    free(slots);
-    return TN_OK;
+    tn_hash_clear(&index);
+    return status;
 }
 
 /* Without corners that repeat the one before; false where fewer than three remain. */

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/hash_table.h"
 #include "runtime/base/int128.h"
 #include "runtime/base/random.h"
 
@@ -132,50 +133,48 @@ void tn_place_write_mpd(const tn_module *module, const tn_placed_model *model, c
 
 /* ---- lists of parts */
 
-typedef struct part_table {
-    tn_part_count *counts;
-    size_t *slots; /* one more than an index of the counts; 0: free */
-    size_t kinds, slot_count;
-} part_table;
+typedef struct wanted_part {
+    const tn_part_count *counts;
+    const char *name;
+    int32_t colour;
+} wanted_part;
+
+static bool is_wanted(const void *context, uint32_t number)
+{
+    const wanted_part *w = context;
+    const tn_part_count *found = &w->counts[number];
+    return found->colour == w->colour && strcmp(found->name, w->name) == 0;
+}
 
 /* Texts of one name are one text of the module. */
-static size_t *slot_of(const part_table *table, const char *name, int32_t colour)
+static uint64_t hash_of(const char *name, int32_t colour)
 {
-    size_t slot = (size_t)tn_mix64((uint64_t)(uintptr_t)name ^ tn_mix64((uint32_t)colour)) & (table->slot_count - 1);
-    for (; table->slots[slot]; slot = (slot + 1) & (table->slot_count - 1)) {
-        const tn_part_count *found = &table->counts[table->slots[slot] - 1];
-        if (found->colour == colour && strcmp(found->name, name) == 0)
-            break;
-    }
-    return &table->slots[slot];
+    return tn_mix64((uint64_t)(uintptr_t)name ^ tn_mix64((uint32_t)colour));
 }
 
 tn_status tn_place_count_parts(const tn_placed_model *model, tn_part_count **counts, size_t *kinds, tn_error *error)
 {
-    part_table table = {.slot_count = 16};
-    while (table.slot_count < 2 * model->count)
-        table.slot_count *= 2;
-    table.counts = calloc(model->count + 1, sizeof *table.counts);
-    table.slots = calloc(table.slot_count, sizeof *table.slots);
-    *counts = table.counts;
-    if (!table.counts || !table.slots) {
-        free(table.counts);
-        free(table.slots);
-        *counts = NULL;
-        return tn_fail_memory(error);
-    }
-    for (size_t i = 0; i < model->count; i++) {
+    tn_hash_table index = {0};
+    *kinds = 0;
+    *counts = calloc(model->count + 1, sizeof **counts);
+    tn_status status = *counts ? TN_OK : tn_fail_memory(error);
+    for (size_t i = 0; i < model->count && status == TN_OK; i++) {
         const tn_placed_part *part = &model->parts[i];
-        size_t *slot = slot_of(&table, part->name, part->frame.colour);
-        if (!*slot) {
-            table.counts[table.kinds++] = (tn_part_count){part->name, part->frame.colour, 0};
-            *slot = table.kinds;
-        }
-        table.counts[*slot - 1].count++;
+        wanted_part wanted = {*counts, part->name, part->frame.colour};
+        uint32_t number = (uint32_t)*kinds;
+        status = tn_hash_enter(&index, hash_of(wanted.name, wanted.colour), is_wanted, &wanted, &number, error);
+        if (status != TN_OK)
+            break;
+        if (number == *kinds)
+            (*counts)[(*kinds)++] = (tn_part_count){wanted.name, wanted.colour, 0};
+        (*counts)[number].count++;
     }
-    *kinds = table.kinds;
-    free(table.slots);
-    return TN_OK;
+    tn_hash_clear(&index);
+    if (status == TN_OK)
+        return TN_OK;
+    free(*counts);
+    *counts = NULL;
+    return status;
 }
 
 /* A field of a CSV file: in quotes where it has to be. */

@@ -163,36 +163,50 @@ tn_status tn_evolution_bring_back(tn_evolution *e, size_t *count, tn_error *erro
     return status;
 }
 
-/* ==== Copies: a child whose sentence another of its generation has is bred again, of the same parents.
- *  Children are looked at in their order, after all have been made, and drawn again with draws of their own, so that
- * the result does not depend on threads. Parents stay the same: those that were selected by single cases are recalled
+/* ==== Copies: a child whose sentence another of its generation has is bred again, of the same parents. Children are
+ * looked at in their order, after all have been made, and drawn again with draws of their own, so that the result does
+ * not depend on threads. Parents stay the same: those that were selected by single cases are recalled
  */
 
-/* The sentences of a generation so far: a hash table, at most half full. No sentence has the hash 0, 0. */
+/* The sentences of a generation so far, by 128 bits of their hashes. There is room for all. */
 typedef struct sentences {
     uint64_t (*hashes)[2];
-    size_t mask;
+    size_t count;
+    tn_hash_table index;
 } sentences;
 
-static bool make_room(sentences *s, size_t count)
+static tn_status make_room(sentences *s, size_t count, tn_error *error)
 {
-    size_t size = 16;
-    while (size < 2 * count)
-        size *= 2;
-    s->hashes = calloc(size, sizeof *s->hashes);
-    s->mask = size - 1;
-    return s->hashes != NULL;
+    *s = (sentences){.hashes = calloc(count + 1, sizeof *s->hashes)};
+    return s->hashes ? tn_hash_reserve(&s->index, count, error) : tn_fail_memory(error);
+}
+
+static void clear_sentences(sentences *s)
+{
+    free(s->hashes);
+    tn_hash_clear(&s->index);
+}
+
+typedef struct wanted_sentence {
+    const sentences *of;
+    const uint64_t *hash;
+} wanted_sentence;
+
+static bool is_sentence(const void *context, uint32_t number)
+{
+    const wanted_sentence *w = context;
+    return memcmp(w->of->hashes[number], w->hash, sizeof w->of->hashes[number]) == 0;
 }
 
 /* Is the sentence new? Then it is known from here on. */
 static bool enter(sentences *s, const uint64_t hash[2])
 {
-    size_t at = (size_t)hash[0] & s->mask;
-    for (; s->hashes[at][0] || s->hashes[at][1]; at = (at + 1) & s->mask)
-        if (s->hashes[at][0] == hash[0] && s->hashes[at][1] == hash[1])
-            return false;
-    s->hashes[at][0] = hash[0];
-    s->hashes[at][1] = hash[1];
+    uint32_t number = (uint32_t)s->count;
+    wanted_sentence wanted = {s, hash};
+    (void)tn_hash_enter(&s->index, hash[0], is_sentence, &wanted, &number, NULL); /* there is room */
+    if (number < s->count)
+        return false;
+    memcpy(s->hashes[s->count++], hash, sizeof *s->hashes);
     return true;
 }
 
@@ -263,11 +277,11 @@ static tn_status pair_again(tn_evolution *e, size_t pair, sentences *known, tn_i
 static tn_status evolution_breed_copies_again(tn_evolution *e, bool first, size_t begin, size_t end, size_t staying,
                                               tn_error *error)
 {
-    sentences known;
+    sentences known = {0};
     tn_individual trials[2] = {0};
     if (e->settings.keeps_copies)
         return TN_OK;
-    tn_status status = make_room(&known, staying + e->born_count) ? TN_OK : tn_fail_memory(error);
+    tn_status status = make_room(&known, staying + e->born_count, error);
     for (size_t i = 0; i < staying && status == TN_OK; i++)
         is_new(&known, e->pool[i]);
     for (size_t i = begin; i < end && status == TN_OK; i++)
@@ -276,7 +290,7 @@ static tn_status evolution_breed_copies_again(tn_evolution *e, bool first, size_
         tn_genome_clear(&trials[i].genome);
         free(trials[i].sentence);
     }
-    free(known.hashes);
+    clear_sentences(&known);
     return status;
 }
 

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
+
 #include "runtime/genome/breeding/evolve_state.h"
 
 /* ==== remembers the scores of sentences */
@@ -11,57 +13,42 @@
 void tn_score_cache_clear(tn_score_cache *cache)
 {
     free(cache->entries);
+    tn_hash_clear(&cache->index);
     *cache = (tn_score_cache){0};
 }
 
-static tn_cached_score *place_of(const tn_score_cache *cache, const uint64_t hash[2])
-{
-    size_t place = (size_t)hash[0] & (cache->size - 1);
-    while (cache->entries[place].used &&
-           (cache->entries[place].hash[0] != hash[0] || cache->entries[place].hash[1] != hash[1]))
-        place = (place + 1) & (cache->size - 1);
-    return &cache->entries[place];
-}
+typedef struct wanted_score {
+    const tn_score_cache *cache;
+    const uint64_t *hash;
+} wanted_score;
 
-static bool grow(tn_score_cache *cache)
+static bool is_wanted(const void *context, uint32_t number)
 {
-    if (cache->count * 2 < cache->size)
-        return true;
-    tn_score_cache larger = {.size = cache->size ? cache->size * 2 : 1024, .count = cache->count};
-    larger.entries = calloc(larger.size, sizeof *larger.entries);
-    if (!larger.entries)
-        return false;
-    for (size_t i = 0; i < cache->size; i++)
-        if (cache->entries[i].used)
-            *place_of(&larger, cache->entries[i].hash) = cache->entries[i];
-    free(cache->entries);
-    *cache = larger;
-    return true;
+    const wanted_score *w = context;
+    const tn_cached_score *entry = &w->cache->entries[number];
+    return entry->hash[0] == w->hash[0] && entry->hash[1] == w->hash[1];
 }
 
 /* Makes a place for the sentence; *is_new where it was not there. */
 static tn_status score_cache_enter(tn_score_cache *cache, const uint64_t hash[2], bool *is_new, tn_error *error)
 {
-    if (!grow(cache))
+    *is_new = false;
+    if (!tn_array_reserve(&cache->entries, &cache->capacity, cache->count, 1, sizeof *cache->entries))
         return tn_fail_memory(error);
-    tn_cached_score *entry = place_of(cache, hash);
-    *is_new = !entry->used;
-    if (entry->used)
-        return TN_OK;
-    *entry = (tn_cached_score){.hash = {hash[0], hash[1]}, .used = true};
-    cache->count++;
-    return TN_OK;
+    uint32_t number = (uint32_t)cache->count;
+    wanted_score wanted = {cache, hash};
+    tn_status status = tn_hash_enter(&cache->index, hash[0], is_wanted, &wanted, &number, error);
+    *is_new = status == TN_OK && number == cache->count;
+    if (*is_new)
+        cache->entries[cache->count++] = (tn_cached_score){.hash = {hash[0], hash[1]}};
+    return status;
 }
 
-/* The sentence must have been entered. */
-static void score_cache_put(tn_score_cache *cache, const uint64_t hash[2], const tn_score *score)
+/* The score of a sentence that was entered. */
+static tn_score *score_of(const tn_score_cache *cache, const uint64_t hash[2])
 {
-    place_of(cache, hash)->score = *score;
-}
-
-static void score_cache_get(const tn_score_cache *cache, const uint64_t hash[2], tn_score *score)
-{
-    *score = place_of(cache, hash)->score;
+    wanted_score wanted = {cache, hash};
+    return &cache->entries[tn_hash_find(&cache->index, hash[0], is_wanted, &wanted)].score;
 }
 
 /* ==== the errors of a generation's members in single cases. A run that is made again recalls who the parents were, and
@@ -291,9 +278,9 @@ tn_status tn_evolution_score(tn_evolution *e, tn_status status, tn_individual **
     if (status != TN_OK)
         return status;
     for (size_t i = 0; i < todo; i++)
-        score_cache_put(&e->cache, individuals[e->todo[i]]->hash, &individuals[e->todo[i]]->score);
+        *score_of(&e->cache, individuals[e->todo[i]]->hash) = individuals[e->todo[i]]->score;
     for (size_t i = 0; i < count; i++)
         if (individuals[i]->reason == TN_MAPPING_VALID)
-            score_cache_get(&e->cache, individuals[i]->hash, &individuals[i]->score);
+            individuals[i]->score = *score_of(&e->cache, individuals[i]->hash);
     return TN_OK;
 }

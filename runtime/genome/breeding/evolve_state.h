@@ -1,20 +1,17 @@
 /* A run of evolution as its parts see it. Of no use elsewhere.
  *
- * evolve.c        moves it on, generation by generation
- * evolve_choice.c takes parents that a person chose, and remembers genomes for that
- * evolve_person.c takes individuals that a person inserts, and takes others out
- * evolve_island.c keeps its islands
- * evolve_birth.c  makes genomes and their sentences
- * evolve_copies.c makes others where one is a copy
- * evolve_score.c  gives them their scores
- * evolve_cases.c  gives them their errors in single cases
- * evolve_share.c  shares that among several processes
- * evolve_stats.c  looks at it
+ * - evolve.c: moves it on, generation by generation; keeps its islands, shares births and scores among several
+ *   processes, and looks at it;
+ * - evolve_birth.c: takes parents, also those that a person chose; makes genomes and their sentences, and others in
+ *   place of copies;
+ * - evolve_score.c: gives them their scores, and their errors in single cases;
+ * - evolve_person.c: takes individuals that a person inserts, and takes others out.
  */
 #ifndef TARTAN_GENOME_BREEDING_EVOLVE_STATE_H
 #define TARTAN_GENOME_BREEDING_EVOLVE_STATE_H
 
 #include "runtime/base/crew.h"
+#include "runtime/base/hash_table.h"
 #include "runtime/genome/breeding/evolve.h"
 #include "runtime/genome/breeding/select.h"
 
@@ -23,12 +20,12 @@
 typedef struct tn_cached_score {
     uint64_t hash[2];
     tn_score score;
-    bool used;
 } tn_cached_score;
 
 typedef struct tn_score_cache {
-    tn_cached_score *entries; /* a hash table, at most half full */
-    size_t size, count;
+    tn_cached_score *entries;
+    size_t count, capacity;
+    tn_hash_table index;
 } tn_score_cache;
 
 void tn_score_cache_clear(tn_score_cache *cache);

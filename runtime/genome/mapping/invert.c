@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
+#include "runtime/base/hash_table.h"
 #include "runtime/base/random.h"
 
 #define TN_CHART_NONE UINT32_MAX
@@ -43,11 +44,6 @@ typedef struct chart_goal {
     uint32_t waiting, finished;
 } chart_goal;
 
-typedef struct chart_table {
-    uint32_t *slots;
-    size_t size, used;
-} chart_table;
-
 typedef struct parse_chart {
     const tn_grammar *grammar;
     const char *sentence;
@@ -62,7 +58,7 @@ typedef struct parse_chart {
     size_t finished_count, finished_capacity;
     chart_goal *goals;
     size_t goal_count, goal_capacity;
-    chart_table item_table, finished_table, goal_table;
+    tn_hash_table item_index, finished_index, goal_index;
     uint32_t *queue;
     size_t queue_begin, queue_end, queue_capacity;
     /* the furthest place reached, and what would have gone on from there */
@@ -93,9 +89,9 @@ static void chart_clear(parse_chart *c)
     free(c->items);
     free(c->finished);
     free(c->goals);
-    free(c->item_table.slots);
-    free(c->finished_table.slots);
-    free(c->goal_table.slots);
+    tn_hash_clear(&c->item_index);
+    tn_hash_clear(&c->finished_index);
+    tn_hash_clear(&c->goal_index);
     free(c->queue);
     *c = (parse_chart){0};
 }
@@ -107,51 +103,55 @@ static bool grow(parse_chart *c, void *items, size_t *capacity, size_t count, si
     return fine;
 }
 
-/* ---- hash tables of indices: the caller compares and hashes */
-
-static bool table_grow(parse_chart *c, chart_table *table, uint64_t (*hash)(const parse_chart *, uint32_t))
-{
-    if (table->used * 2 < table->size)
-        return true;
-    size_t size = table->size ? table->size * 2 : 1024;
-    uint32_t *slots = malloc(size * sizeof *slots);
-    if (!slots) {
-        c->out_of_memory = true;
-        return false;
-    }
-    memset(slots, 0xFF, size * sizeof *slots);
-    for (size_t i = 0; i < table->size; i++) {
-        if (table->slots[i] == TN_CHART_NONE)
-            continue;
-        size_t place = (size_t)hash(c, table->slots[i]) & (size - 1);
-        while (slots[place] != TN_CHART_NONE)
-            place = (place + 1) & (size - 1);
-        slots[place] = table->slots[i];
-    }
-    free(table->slots);
-    table->slots = slots;
-    table->size = size;
-    return true;
-}
+/* ---- what is looked for in the chart */
 
 static uint64_t key_hash(uint32_t a, uint32_t b, uint32_t d, uint64_t letters)
 {
     return tn_mix64(tn_mix64((uint64_t)a << 32 | b) ^ d ^ letters << 32 ^ letters >> 32);
 }
 
-static uint64_t item_hash(const parse_chart *c, uint32_t i)
+typedef struct wanted_item {
+    const parse_chart *chart;
+    const chart_item *item;
+} wanted_item;
+
+static bool is_item(const void *context, uint32_t number)
 {
-    return key_hash(c->items[i].at, c->items[i].begin, c->items[i].end, c->items[i].letters);
+    const wanted_item *w = context;
+    const chart_item *there = &w->chart->items[number];
+    return there->at == w->item->at && there->begin == w->item->begin && there->end == w->item->end &&
+           there->letters == w->item->letters;
 }
 
-static uint64_t finished_hash(const parse_chart *c, uint32_t i)
+typedef struct wanted_finished {
+    const parse_chart *chart;
+    const chart_finished *finished;
+} wanted_finished;
+
+static bool is_finished(const void *context, uint32_t number)
 {
-    return key_hash(c->finished[i].rule, c->finished[i].begin, c->finished[i].end, 0);
+    const wanted_finished *w = context;
+    const chart_finished *there = &w->chart->finished[number];
+    return there->rule == w->finished->rule && there->begin == w->finished->begin && there->end == w->finished->end;
 }
 
-static uint64_t goal_hash(const parse_chart *c, uint32_t i)
+typedef struct wanted_goal {
+    const parse_chart *chart;
+    uint32_t rule, begin;
+} wanted_goal;
+
+static bool is_goal(const void *context, uint32_t number)
 {
-    return key_hash(c->goals[i].rule, c->goals[i].begin, 0, 0);
+    const wanted_goal *w = context;
+    return w->chart->goals[number].rule == w->rule && w->chart->goals[number].begin == w->begin;
+}
+
+/* The number of what is looked for, or the next one. False where out of memory. */
+static bool enter(parse_chart *c, tn_hash_table *table, uint64_t hash, tn_hash_same *is, const void *wanted,
+                  uint32_t *number)
+{
+    c->out_of_memory |= tn_hash_enter(table, hash, is, wanted, number, NULL) != TN_OK;
+    return !c->out_of_memory;
 }
 
 /* ---- items */
@@ -174,24 +174,23 @@ static void enqueue(parse_chart *c, uint32_t item)
 /* Adds an item, or improves the one that is there. */
 static void add_item(parse_chart *c, chart_item item)
 {
-    if (c->out_of_memory || c->too_many || !table_grow(c, &c->item_table, item_hash))
+    if (c->out_of_memory || c->too_many)
         return;
     if (++c->steps / TN_CHART_STEPS > c->max_items) {
         c->too_many = true;
         return;
     }
-    chart_table *table = &c->item_table;
-    size_t place = (size_t)key_hash(item.at, item.begin, item.end, item.letters) & (table->size - 1);
-    for (; table->slots[place] != TN_CHART_NONE; place = (place + 1) & (table->size - 1)) {
-        chart_item *there = &c->items[table->slots[place]];
-        if (there->at != item.at || there->begin != item.begin || there->end != item.end ||
-            there->letters != item.letters)
-            continue;
+    wanted_item wanted = {c, &item};
+    uint32_t number = (uint32_t)c->item_count;
+    if (!enter(c, &c->item_index, key_hash(item.at, item.begin, item.end, item.letters), is_item, &wanted, &number))
+        return;
+    if (number < c->item_count) {
+        chart_item *there = &c->items[number];
         if (item.value < there->value) {
             there->value = item.value;
             there->before = item.before;
             there->child = item.child;
-            enqueue(c, table->slots[place]);
+            enqueue(c, number);
         }
         return;
     }
@@ -203,10 +202,8 @@ static void add_item(parse_chart *c, chart_item item)
         return;
     item.link = TN_CHART_NONE;
     item.queued = false;
-    c->items[c->item_count] = item;
-    table->slots[place] = (uint32_t)c->item_count;
-    table->used++;
-    enqueue(c, (uint32_t)c->item_count++);
+    c->items[c->item_count++] = item;
+    enqueue(c, number);
 }
 
 /* The item after `index`, over a word that wrote the sentence up to `end`. */
@@ -288,23 +285,16 @@ static void expect(parse_chart *c, uint32_t word, uint32_t end)
 
 static chart_goal *goal_for(parse_chart *c, uint32_t rule, uint32_t begin, bool *is_new)
 {
+    wanted_goal wanted = {c, rule, begin};
+    uint32_t number = (uint32_t)c->goal_count;
     *is_new = false;
-    if (!table_grow(c, &c->goal_table, goal_hash))
+    if (!grow(c, &c->goals, &c->goal_capacity, c->goal_count, sizeof *c->goals) ||
+        !enter(c, &c->goal_index, key_hash(rule, begin, 0, 0), is_goal, &wanted, &number))
         return NULL;
-    chart_table *table = &c->goal_table;
-    size_t place = (size_t)key_hash(rule, begin, 0, 0) & (table->size - 1);
-    for (; table->slots[place] != TN_CHART_NONE; place = (place + 1) & (table->size - 1)) {
-        chart_goal *goal = &c->goals[table->slots[place]];
-        if (goal->rule == rule && goal->begin == begin)
-            return goal;
-    }
-    if (!grow(c, &c->goals, &c->goal_capacity, c->goal_count, sizeof *c->goals))
-        return NULL;
-    *is_new = true;
-    table->slots[place] = (uint32_t)c->goal_count;
-    table->used++;
-    c->goals[c->goal_count] = (chart_goal){rule, begin, TN_CHART_NONE, TN_CHART_NONE};
-    return &c->goals[c->goal_count++];
+    *is_new = number == c->goal_count;
+    if (*is_new)
+        c->goals[c->goal_count++] = (chart_goal){rule, begin, TN_CHART_NONE, TN_CHART_NONE};
+    return &c->goals[number];
 }
 
 /* Starts every production of a rule; those whose first terminal does not stand there are left out at once. */
@@ -364,30 +354,26 @@ static uint32_t production_at(const tn_grammar *g, uint32_t word)
 static bool finish(parse_chart *c, chart_finished f, uint32_t *index)
 {
     bool is_new;
-    if (!table_grow(c, &c->finished_table, finished_hash))
+    wanted_finished wanted = {c, &f};
+    *index = (uint32_t)c->finished_count;
+    if (!grow(c, &c->finished, &c->finished_capacity, c->finished_count, sizeof *c->finished) ||
+        !enter(c, &c->finished_index, key_hash(f.rule, f.begin, f.end, 0), is_finished, &wanted, index))
         return false;
-    chart_table *table = &c->finished_table;
-    size_t place = (size_t)key_hash(f.rule, f.begin, f.end, 0) & (table->size - 1);
-    for (; table->slots[place] != TN_CHART_NONE; place = (place + 1) & (table->size - 1)) {
-        chart_finished *there = &c->finished[table->slots[place]];
-        if (there->rule != f.rule || there->begin != f.begin || there->end != f.end)
-            continue;
+    if (*index < c->finished_count) {
+        chart_finished *there = &c->finished[*index];
         if (f.value >= there->value)
             return false;
         there->value = f.value;
         there->item = f.item;
-        *index = table->slots[place];
         return true;
     }
+    f.link = TN_CHART_NONE;
+    c->finished[c->finished_count++] = f;
     chart_goal *goal = goal_for(c, f.rule, f.begin, &is_new);
-    if (!goal || !grow(c, &c->finished, &c->finished_capacity, c->finished_count, sizeof *c->finished))
+    if (!goal)
         return false;
-    f.link = goal->finished;
-    *index = (uint32_t)c->finished_count++;
+    c->finished[*index].link = goal->finished;
     goal->finished = *index;
-    c->finished[*index] = f;
-    table->slots[place] = *index;
-    table->used++;
     return true;
 }
 

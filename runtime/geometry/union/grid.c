@@ -9,9 +9,9 @@ enum { NEAR = 4 }; /* steps: crossings were seen to be two apart */
 void tn_grid_clear(tn_grid *grid)
 {
     free(grid->vertices);
-    free(grid->vertex_table.slots);
+    tn_hash_clear(&grid->vertex_index);
     free(grid->lines);
-    free(grid->line_table.slots);
+    tn_hash_clear(&grid->line_index);
     free(grid->stops);
     free(grid->line_stops);
     free(grid->corners);
@@ -32,7 +32,7 @@ bool tn_grid_room(tn_grid *grid, void *items, size_t size, size_t count, size_t 
     return !grid->failed;
 }
 
-/* ---- tables from values to numbers */
+/* ---- numbers of vertices and lines */
 
 static uint64_t mix(uint64_t hash, uint64_t value)
 {
@@ -56,70 +56,51 @@ static bool same_line(const tn_grid_line *x, const tn_grid_line *y)
     return x->kind == y->kind && x->p == y->p && x->q == y->q && x->a == y->a && x->b == y->b && x->c == y->c;
 }
 
-/* Makes a table twice as large; `hash` of each number that is in it. */
-static bool grow(tn_grid *grid, tn_grid_table *table, bool of_lines)
+typedef struct wanted_vertex {
+    const tn_grid *grid;
+    tn_grid_vertex vertex;
+} wanted_vertex;
+
+static bool is_vertex(const void *context, uint32_t number)
 {
-    if (4 * (table->count + 1) <= 3 * table->capacity)
-        return true;
-    size_t capacity = table->capacity ? 2 * table->capacity : 1024;
-    uint32_t *slots = malloc(capacity * sizeof *slots);
-    grid->failed |= !slots;
-    if (!slots)
-        return false;
-    memset(slots, 0xff, capacity * sizeof *slots);
-    for (uint32_t i = 0; i < table->count; i++) {
-        uint64_t hash = of_lines ? hash_line(&grid->lines[i]) : hash_vertex(&grid->vertices[i]);
-        size_t at = hash & (capacity - 1);
-        while (slots[at] != TN_NOTHING)
-            at = (at + 1) & (capacity - 1);
-        slots[at] = i;
-    }
-    free(table->slots);
-    table->slots = slots;
-    table->capacity = capacity;
-    return true;
+    const wanted_vertex *w = context;
+    return memcmp(&w->grid->vertices[number], &w->vertex, sizeof w->vertex) == 0;
 }
 
-/* Where in the table a vertex is, or is to be. */
-static size_t vertex_slot(const tn_grid *grid, const tn_grid_vertex *vertex)
+typedef struct wanted_line {
+    const tn_grid *grid;
+    tn_grid_line line;
+} wanted_line;
+
+static bool is_line(const void *context, uint32_t number)
 {
-    const tn_grid_table *table = &grid->vertex_table;
-    size_t slot = hash_vertex(vertex) & (table->capacity - 1);
-    while (table->slots[slot] != TN_NOTHING && memcmp(&grid->vertices[table->slots[slot]], vertex, sizeof *vertex) != 0)
-        slot = (slot + 1) & (table->capacity - 1);
-    return slot;
+    const wanted_line *w = context;
+    return same_line(&w->grid->lines[number], &w->line);
 }
 
 uint32_t tn_grid_vertex_of(tn_grid *grid, const int64_t at[3])
 {
-    tn_grid_vertex vertex = {{at[0], at[1], at[2]}};
-    tn_grid_table *table = &grid->vertex_table;
-    if (!grow(grid, table, false) ||
-        !tn_grid_room(grid, &grid->vertices, sizeof vertex, grid->vertex_count, &grid->vertex_capacity))
+    wanted_vertex wanted = {grid, {{at[0], at[1], at[2]}}};
+    uint32_t number = (uint32_t)grid->vertex_count;
+    if (!tn_grid_room(grid, &grid->vertices, sizeof wanted.vertex, grid->vertex_count, &grid->vertex_capacity))
         return 0;
-    size_t slot = vertex_slot(grid, &vertex);
-    if (table->slots[slot] != TN_NOTHING)
-        return table->slots[slot];
-    table->slots[slot] = (uint32_t)grid->vertex_count;
-    table->count++;
-    grid->vertices[grid->vertex_count] = vertex;
-    return (uint32_t)grid->vertex_count++;
+    grid->failed =
+        tn_hash_enter(&grid->vertex_index, hash_vertex(&wanted.vertex), is_vertex, &wanted, &number, NULL) != TN_OK;
+    if (!grid->failed && number == grid->vertex_count)
+        grid->vertices[grid->vertex_count++] = wanted.vertex;
+    return grid->failed ? 0 : number;
 }
 
 static uint32_t line_of(tn_grid *grid, tn_grid_line line)
 {
-    tn_grid_table *table = &grid->line_table;
-    if (!grow(grid, table, true) ||
-        !tn_grid_room(grid, &grid->lines, sizeof line, grid->line_count, &grid->line_capacity))
+    wanted_line wanted = {grid, line};
+    uint32_t number = (uint32_t)grid->line_count;
+    if (!tn_grid_room(grid, &grid->lines, sizeof line, grid->line_count, &grid->line_capacity))
         return 0;
-    size_t slot = hash_line(&line) & (table->capacity - 1);
-    for (; table->slots[slot] != TN_NOTHING; slot = (slot + 1) & (table->capacity - 1))
-        if (same_line(&grid->lines[table->slots[slot]], &line))
-            return table->slots[slot];
-    table->slots[slot] = (uint32_t)grid->line_count;
-    table->count++;
-    grid->lines[grid->line_count] = line;
-    return (uint32_t)grid->line_count++;
+    grid->failed = tn_hash_enter(&grid->line_index, hash_line(&line), is_line, &wanted, &number, NULL) != TN_OK;
+    if (!grid->failed && number == grid->line_count)
+        grid->lines[grid->line_count++] = line;
+    return grid->failed ? 0 : number;
 }
 
 /* ---- lines */
@@ -256,16 +237,17 @@ static int64_t nearest_small(tn_int128 numerator, tn_int128 denominator)
 static void move_to_near(const tn_grid *grid, int u, int v, int64_t at[3])
 {
     int64_t nearest_square = INT64_MAX;
-    tn_grid_vertex one = {{at[0], at[1], at[2]}}, best = one;
+    wanted_vertex one = {grid, {{at[0], at[1], at[2]}}};
+    tn_grid_vertex best = one.vertex;
     for (int64_t du = -NEAR; du <= NEAR && grid->vertex_count; du++)
         for (int64_t dv = -NEAR; dv <= NEAR; dv++) {
-            one.at[u] = at[u] + du;
-            one.at[v] = at[v] + dv;
+            one.vertex.at[u] = at[u] + du;
+            one.vertex.at[v] = at[v] + dv;
             bool nearer = du * du + dv * dv < nearest_square;
-            if (!nearer || grid->vertex_table.slots[vertex_slot(grid, &one)] == TN_NOTHING)
+            if (!nearer || tn_hash_find(&grid->vertex_index, hash_vertex(&one.vertex), is_vertex, &one) == TN_HASH_NONE)
                 continue;
             nearest_square = du * du + dv * dv;
-            best = one;
+            best = one.vertex;
         }
     memcpy(at, best.at, sizeof best.at);
 }

@@ -3,6 +3,7 @@
 #define TARTAN_GEOMETRY_UNION_GRID_H
 
 #include "runtime/base/array.h"
+#include "runtime/base/hash_table.h"
 #include "runtime/geometry/union/union.h"
 #include "runtime/geometry/union/wide.h"
 
@@ -51,20 +52,15 @@ typedef struct tn_grid_split {
     uint32_t low, high, middle; /* vertices; low < high */
 } tn_grid_split;
 
-typedef struct tn_grid_table {
-    uint32_t *slots;
-    size_t capacity, count;
-} tn_grid_table;
-
 typedef struct tn_grid {
     double step;
     bool merging; /* a crossing of lines becomes the vertex that is a few steps away, if there is one */
     tn_grid_vertex *vertices;
     size_t vertex_count, vertex_capacity;
-    tn_grid_table vertex_table;
+    tn_hash_table vertex_index;
     tn_grid_line *lines;
     size_t line_count, line_capacity;
-    tn_grid_table line_table;
+    tn_hash_table line_index;
     tn_grid_stop *stops;
     size_t stop_count, stop_capacity;
     size_t *line_stops; /* [line_count + 1] into stops, once they are sorted */

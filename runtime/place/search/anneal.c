@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
+#include "runtime/base/hash_table.h"
 #include "runtime/base/random.h"
 #include "runtime/place/search/run.h"
 #include "runtime/place/search/world.h"
@@ -10,12 +11,13 @@
 /* A connector of what is put. */
 typedef struct hang_socket {
     int32_t at[3];
-    uint32_t put; /* one more than its index; 0: none */
+    uint32_t put; /* its index */
 } hang_socket;
 
 typedef struct hanging {
-    hang_socket *sockets; /* a hash table by place */
-    size_t socket_size;
+    hang_socket *sockets;
+    size_t socket_count, socket_capacity;
+    tn_hash_table socket_index; /* by place: several may have one */
     uint32_t *order;
     bool *held;
     size_t capacity;
@@ -26,10 +28,18 @@ typedef struct hanging {
 /* ---- goes from the connectors at which the model starts to what stands there, and on from the connectors of that.
  * What has a connector at a place is found by a hash table */
 
-static size_t slot_of(const hanging *h, const int32_t at[3])
+static uint64_t hash_place(const int32_t at[3])
 {
     uint64_t hash = tn_mix64((uint64_t)(uint32_t)at[0] << 32 | (uint32_t)at[1]);
-    return (size_t)tn_mix64(hash ^ (uint32_t)at[2]) & (h->socket_size - 1);
+    return tn_mix64(hash ^ (uint32_t)at[2]);
+}
+
+/* For sockets that are entered: each is new. */
+static bool is_none(const void *wanted, uint32_t number)
+{
+    (void)wanted;
+    (void)number;
+    return false;
 }
 
 static void add_sockets(hanging *h, const tn_site_choices *c, const tn_put *put, uint32_t index)
@@ -44,27 +54,23 @@ static void add_sockets(hanging *h, const tn_site_choices *c, const tn_put *put,
         const tn_part_connector_record *from = &module->PART_CONNECTOR_records[record->connector_first + i];
         const tn_frame relative = {.at = {(int32_t)from->x, (int32_t)from->y, (int32_t)from->z}};
         tn_frame at = tn_frame_from(&frame, &relative);
-        size_t slot = slot_of(h, at.at);
-        while (h->sockets[slot].put)
-            slot = (slot + 1) & (h->socket_size - 1);
-        memcpy(h->sockets[slot].at, at.at, sizeof at.at);
-        h->sockets[slot].put = index + 1;
+        uint32_t number = (uint32_t)h->socket_count++;
+        memcpy(h->sockets[number].at, at.at, sizeof at.at);
+        h->sockets[number].put = index;
+        (void)tn_hash_enter(&h->socket_index, hash_place(at.at), is_none, NULL, &number, NULL); /* there is room */
     }
 }
 
 static bool make_sockets(hanging *h, const tn_site_choices *c, const tn_standing *plan)
 {
-    size_t count = 0, size = 64;
+    size_t count = 0;
     for (size_t i = 0; i < plan->put_count; i++)
         count += c->kinds[c->parts[c->choices[plan->puts[i].choice].part_first].kind].record->connector_count;
-    while (size < 2 * count + 2)
-        size *= 2;
-    if (size > h->socket_size) {
-        if (!tn_array_resize(&h->sockets, size, sizeof *h->sockets))
-            return false;
-        h->socket_size = size;
-    }
-    memset(h->sockets, 0, h->socket_size * sizeof *h->sockets);
+    tn_hash_forget(&h->socket_index);
+    h->socket_count = 0;
+    if (!tn_array_reserve(&h->sockets, &h->socket_capacity, 0, count, sizeof *h->sockets) ||
+        tn_hash_reserve(&h->socket_index, count, NULL) != TN_OK)
+        return false;
     for (size_t i = 0; i < plan->put_count; i++)
         add_sockets(h, c, &plan->puts[i], (uint32_t)i);
     return true;
@@ -90,18 +96,29 @@ static tn_status add_sites(hanging *h, const tn_open_site *sites, size_t count, 
     return TN_OK;
 }
 
+typedef struct wanted_put {
+    const hanging *hanging;
+    const tn_site_choices *choices;
+    const tn_standing *plan;
+    const tn_open_site *site;
+} wanted_put;
+
+static bool may_hold(const void *context, uint32_t number)
+{
+    const wanted_put *w = context;
+    const hang_socket *socket = &w->hanging->sockets[number];
+    if (w->hanging->held[socket->put] || memcmp(socket->at, w->site->frame.at, sizeof socket->at) != 0)
+        return false;
+    const tn_put *put = &w->plan->puts[socket->put];
+    return tn_choice_may_stand(w->choices, w->site, &w->choices->choices[put->choice], &put->at);
+}
+
 /* The put that stands at a site by its rule, and was not reached before; UINT32_MAX: none. */
 static uint32_t find_put(const hanging *h, const tn_site_choices *c, const tn_standing *plan, const tn_open_site *site)
 {
-    for (size_t slot = slot_of(h, site->frame.at); h->sockets[slot].put; slot = (slot + 1) & (h->socket_size - 1)) {
-        uint32_t index = h->sockets[slot].put - 1;
-        if (h->held[index] || memcmp(h->sockets[slot].at, site->frame.at, sizeof site->frame.at) != 0)
-            continue;
-        const tn_put *put = &plan->puts[index];
-        if (tn_choice_may_stand(c, site, &c->choices[put->choice], &put->at))
-            return index;
-    }
-    return UINT32_MAX;
+    wanted_put wanted = {h, c, plan, site};
+    uint32_t number = tn_hash_find(&h->socket_index, hash_place(site->frame.at), may_hold, &wanted);
+    return number == TN_HASH_NONE ? UINT32_MAX : h->sockets[number].put;
 }
 
 static tn_status reach(hanging *h, const tn_site_choices *c, const tn_standing *plan, size_t *count, tn_error *error)
@@ -180,6 +197,7 @@ static tn_status hang_keep(hanging *h, const tn_site_choices *c, tn_standing *pl
 static void hang_clear(hanging *h)
 {
     free(h->sockets);
+    tn_hash_clear(&h->socket_index);
     free(h->order);
     free(h->held);
     free(h->sites);

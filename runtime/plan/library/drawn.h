@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "runtime/base/error.h"
+#include "runtime/base/hash_table.h"
 
 /* Numbers of one size in limbs, those drawn so far. Begin with tn_drawn_make; clear in any case. */
 typedef struct tn_drawn {
@@ -15,8 +15,8 @@ typedef struct tn_drawn {
     size_t limbs;
     unsigned spare;    /* bits of the highest limb that the bound does not have */
     mp_limb_t *values; /* [count][limbs], in the order drawn */
-    size_t *slots;     /* number + 1; 0 is free */
-    size_t count, capacity, room;
+    size_t count, room;
+    tn_hash_table index;
     mp_limb_t *candidate; /* [limbs] */
 } tn_drawn;
 
