@@ -245,7 +245,7 @@ void tn_patterns_clear(tn_patterns *patterns)
 {
     free(patterns->items);
     free(patterns->variants);
-    free(patterns->slots);
+    tn_hash_clear(&patterns->table);
     tn_cuts_clear(&patterns->cuts);
     *patterns = (tn_patterns){0};
 }
@@ -253,8 +253,7 @@ void tn_patterns_clear(tn_patterns *patterns)
 void tn_patterns_forget(tn_patterns *patterns)
 {
     patterns->count = patterns->variant_count = 0;
-    if (patterns->slots)
-        memset(patterns->slots, 0, patterns->slot_count * sizeof *patterns->slots);
+    tn_hash_forget(&patterns->table);
     tn_cuts_empty(&patterns->cuts);
 }
 
@@ -301,32 +300,17 @@ static inline bool same_codes(const uint64_t *a, const uint64_t *b, uint32_t siz
     return true;
 }
 
-static inline size_t slot_of(const tn_patterns *patterns, const uint64_t *codes, uint32_t size)
-{
-    uint64_t hash = hash_of(codes, size);
-    for (size_t i = (size_t)hash & (patterns->slot_count - 1);; i = (i + 1) & (patterns->slot_count - 1)) {
-        if (patterns->slots[i] == 0)
-            return i;
-        const tn_pattern *one = &patterns->items[patterns->slots[i] - 1];
-        if (one->size == size && same_codes(one->codes, codes, size))
-            return i;
-    }
-}
+typedef struct wanted_pattern {
+    const tn_patterns *patterns;
+    const uint64_t *codes;
+    uint32_t size;
+} wanted_pattern;
 
-static bool make_slots(tn_patterns *patterns)
+static bool is_wanted(const void *context, uint32_t number)
 {
-    size_t larger = patterns->slot_count ? 2 * patterns->slot_count : 64;
-    uint32_t *slots = calloc(larger, sizeof *slots);
-    if (!slots)
-        return false;
-    free(patterns->slots);
-    patterns->slots = slots;
-    patterns->slot_count = larger;
-    for (size_t i = 0; i < patterns->count; i++) {
-        const tn_pattern *one = &patterns->items[i];
-        slots[slot_of(patterns, one->codes, one->size)] = (uint32_t)i + 1;
-    }
-    return true;
+    const wanted_pattern *w = context;
+    const tn_pattern *one = &w->patterns->items[number];
+    return one->size == w->size && same_codes(one->codes, w->codes, w->size);
 }
 
 /* The branches that lie in such a face, as its loop meets them; false where it is unusual. */
@@ -408,23 +392,24 @@ static void add_pairs(const tn_pass *pass, tn_pattern *pattern)
 static bool find_pattern(tn_patterns *patterns, const view *seen, tn_pattern **found)
 {
     *found = NULL;
-    if (2 * patterns->count >= patterns->slot_count && !make_slots(patterns))
-        return false;
-    size_t slot = slot_of(patterns, seen->codes, seen->size);
-    if (patterns->slots[slot]) {
-        *found = &patterns->items[patterns->slots[slot] - 1];
+    uint64_t hash = hash_of(seen->codes, seen->size);
+    wanted_pattern wanted = {patterns, seen->codes, seen->size};
+    uint32_t number = tn_hash_find(&patterns->table, hash, is_wanted, &wanted);
+    if (number != TN_HASH_NONE) {
+        *found = &patterns->items[number];
         return true;
     }
     if (patterns->count == PATTERNS)
         return true;
-    if (!tn_array_reserve(&patterns->items, &patterns->room, patterns->count, 1, sizeof *patterns->items))
+    number = (uint32_t)patterns->count;
+    if (!tn_array_reserve(&patterns->items, &patterns->room, patterns->count, 1, sizeof *patterns->items) ||
+        tn_hash_enter(&patterns->table, hash, is_wanted, &wanted, &number, NULL) != TN_OK)
         return false;
     tn_pattern *added = &patterns->items[patterns->count++];
     memset(added, 0, sizeof *added);
     added->size = seen->size;
     memcpy(added->codes, seen->codes, (seen->size + CODES - 1) / CODES * sizeof *seen->codes);
     add_pairs(seen->pass, added);
-    patterns->slots[slot] = (uint32_t)patterns->count;
     *found = added;
     return true;
 }

@@ -15,6 +15,7 @@
 
 #include <string.h>
 
+#include "runtime/base/hash_table.h"
 #include "runtime/growth/join/join.h"
 
 /* How faces are cut: the loops that each falls into where its branches joined (internal to the growth engine).
@@ -115,8 +116,7 @@ typedef struct tn_patterns {
     struct tn_pattern *items;
     struct tn_variant *variants;
     size_t count, room, variant_count, variant_room;
-    uint32_t *slots; /* hash table of patterns: index + 1, or 0 */
-    size_t slot_count;
+    tn_hash_table table; /* of patterns */
     tn_cuts cuts;
 } tn_patterns;
 
