@@ -36,7 +36,11 @@ const char tn_prolog_prelude[] =
     "side_by_side([may(Part)|Parts], W, I, J) :- side_by_side([Part|Parts], W, I, J), !.\n"
     "side_by_side([may(_)|Parts], W, I, J) :- !, side_by_side(Parts, W, I, J).\n"
     "side_by_side([Part|Parts], W, I, J) :-\n"
-    "    I1 is I + 1, from_to(I1, J, C), call(Part, W, I, C), side_by_side(Parts, W, C, J), !.\n"
+    "    needed(Parts, R), Last is J - R, I1 is I + 1, from_to(I1, Last, C), call(Part, W, I, C),\n"
+    "    side_by_side(Parts, W, C, J), !.\n"
+    "needed([], 0).\n"
+    "needed([may(_)|Parts], R) :- !, needed(Parts, R).\n"
+    "needed([_|Parts], R) :- needed(Parts, R1), R is R1 + 1.\n"
     "\n"
     "at_beginning(_, I, _) :- I =:= 0.\n"
     "at_end(w(N, _), _, J) :- J =:= N.\n"
@@ -49,6 +53,13 @@ const char tn_prolog_prelude[] =
     "\n"
     "every_tray(Part, W, I, J) :-\n"
     "    I < J, Last is J - 1, \\+ (from_to(I, Last, K), K1 is K + 1, \\+ call(Part, W, K, K1)).\n"
+    "\n"
+    "% The part several times side by side; each takes a tray at least.\n"
+    "repeated(Least, Most, Part, W, I, J) :- repeated(Least, Most, 0, Part, W, I, J), !.\n"
+    "repeated(Least, _, N, _, _, J, J) :- N >= Least.\n"
+    "repeated(Least, Most, N, Part, W, I, J) :-\n"
+    "    ( Most == inf -> true ; N < Most ), I < J, N1 is N + 1, R is max(0, Least - N1), Last is J - R, I1 is I + 1,\n"
+    "    from_to(I1, Last, C), call(Part, W, I, C), repeated(Least, Most, N1, Part, W, C, J).\n"
     "\n"
     "count(_, _, J, J, 0) :- !.\n"
     "count(Part, W, I, J, N) :-\n"
@@ -145,7 +156,7 @@ static void put_name(writing *w, uint32_t function, uint32_t part)
     char suffix[64];
     const tn_function_record *record = &w->module->FUNCTION_records[function];
     uint32_t rule = tn_function_rule(w->module, function);
-    const char *kind = record->kind == TN_FUNCTION_WHOLE ? "whole" : "somewhere";
+    const char *kind = tn_function_is_whole(record) ? "whole" : "somewhere";
     if (part == 0 && rule != UINT32_MAX)
         snprintf(suffix, sizeof suffix, " %s", kind);
     else if (part == 0)
@@ -357,6 +368,15 @@ static void put_body(writing *w, const tn_parts *parts, uint32_t function, uint3
         break;
     case TN_PART_MANY:
         put(w, "every_tray(");
+        put_name(w, function, it->first);
+        put(w, ", W, I, J)");
+        break;
+    case TN_PART_REPEAT:
+        w->ok = w->ok && tn_buffer_printf(w->out, "repeated(%" PRIu32 ", ", it->least);
+        if (it->most > 0)
+            w->ok = w->ok && tn_buffer_printf(w->out, "%" PRIu32 ", ", it->most);
+        else
+            put(w, "inf, ");
         put_name(w, function, it->first);
         put(w, ", W, I, J)");
         break;
