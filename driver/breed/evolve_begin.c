@@ -13,7 +13,7 @@
 #include "driver/breed/evolve_replay.h"
 #include "driver/breed/inputs.h"
 #include "runtime/base/file.h"
-#include "runtime/numeric/numeric.h"
+#include "runtime/math/elementary.h"
 
 static tn_status put_meta(tn_run *run, const tn_run_texts *texts, tn_error *error)
 {

@@ -16,7 +16,7 @@
 #include "runtime/base/array.h"
 #include "runtime/base/file.h"
 #include "runtime/genome/mapping/sentences.h"
-#include "runtime/numeric/numeric.h"
+#include "runtime/math/elementary.h"
 
 char *tn_run_database(const char *dir)
 {

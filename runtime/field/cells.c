@@ -9,7 +9,7 @@
 #include "runtime/field/contour_table.h"
 #include "runtime/field/contouring.h"
 #include "runtime/field/field.h"
-#include "runtime/numeric/any_width.h"
+#include "runtime/math/any_width.h"
 
 /* Rows of cells: the edges that they have, by rows of samples. Row k of samples lies at y + (k & 1), z + (k >> 1). */
 typedef struct cell_row {

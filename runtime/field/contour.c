@@ -8,7 +8,7 @@
 #include "runtime/base/array.h"
 #include "runtime/base/watch.h"
 #include "runtime/field/contouring.h"
-#include "runtime/numeric/any_width.h"
+#include "runtime/math/any_width.h"
 
 /* ==== finds which samples are inside. Blocks whose sign intervals prove are not evaluated: first those of 32 samples a
  * side, then those of 8; what remains is evaluated by rows of 8 x 8 x 4 samples */

@@ -2,8 +2,8 @@
  *
  * Adding, removing and finding take a step a level, of which 2^32 numbers need six. The owner frees the set with
  * tn_bit_tree_clear. */
-#ifndef TARTAN_NUMERIC_BIT_TREE_H
-#define TARTAN_NUMERIC_BIT_TREE_H
+#ifndef TARTAN_GEOMETRY_BIT_TREE_H
+#define TARTAN_GEOMETRY_BIT_TREE_H
 
 #include <stdbool.h>
 #include <stdint.h>

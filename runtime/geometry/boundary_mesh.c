@@ -8,7 +8,7 @@
 #include <xxhash.h>
 
 #include "runtime/geometry/select_nth.h"
-#include "runtime/numeric/numeric.h"
+#include "runtime/math/elementary.h"
 
 /* ==== answers what is inside of a boundary mesh and what meets it, by a tree of its triangles */
 

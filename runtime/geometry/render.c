@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "runtime/numeric/numeric.h"
+#include "runtime/math/elementary.h"
 
 /* ---- places cameras, and lights surfaces */
 

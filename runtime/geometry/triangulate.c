@@ -10,9 +10,9 @@
 #include <stdlib.h>
 
 #include "runtime/base/watch.h"
+#include "runtime/geometry/bit_tree.h"
 #include "runtime/geometry/corner_tree.h"
 #include "runtime/geometry/mesh.h"
-#include "runtime/numeric/bit_tree.h"
 
 #define FEW 24u /* corners of a face: up to here all that turn outwards are looked at */
 

@@ -9,7 +9,7 @@
 #include "runtime/growth/join/decide.h"
 #include "runtime/growth/pass/pass.h"
 #include "runtime/growth/stats.h"
-#include "runtime/numeric/numeric.h"
+#include "runtime/math/elementary.h"
 
 /* ==== grows a surface step by step */
 

@@ -1,7 +1,7 @@
 /* Loops over rows of numbers that compilers turn into vector code, also for wider vectors than the oldest processors
  * have, where there are: each element is one IEEE operation by itself, so that the results are the same with any. */
-#ifndef TARTAN_NUMERIC_ANY_WIDTH_H
-#define TARTAN_NUMERIC_ANY_WIDTH_H
+#ifndef TARTAN_MATH_ANY_WIDTH_H
+#define TARTAN_MATH_ANY_WIDTH_H
 
 #ifdef TN_ONE_WIDTH /* what tests build for, whatever the processor */
 #define TN_ANY_WIDTH TN_ONE_WIDTH

@@ -10,8 +10,8 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "runtime/numeric/any_width.h"
-#include "runtime/numeric/numeric.h"
+#include "runtime/math/any_width.h"
+#include "runtime/math/elementary.h"
 
 /* ==== computes gradient noise (Perlin, "Improving noise", 2002) over a lattice whose gradients are chosen by a hash */
 
@@ -236,7 +236,7 @@ double tn_operation_slope(tn_opcode opcode, const double *operands, const double
 #define IF_ROW_CALL(...)
 #define IF_ROW_ROW(...) __VA_ARGS__
 
-/* Functions of one operand that numeric.h has for rows. */
+/* Functions of one operand that elementary.h has for rows. */
 #define ROW_OF(NAME, FUNCTION)                                                                                         \
     static void row_##NAME(const double *const *operands, double *restrict out)                                        \
     {                                                                                                                  \

@@ -11,7 +11,7 @@
 #include "runtime/geometry/hidden/hidden.h"
 #include "runtime/geometry/mesh.h"
 #include "runtime/geometry/vector.h"
-#include "runtime/numeric/numeric.h"
+#include "runtime/math/elementary.h"
 #include "runtime/scene/seen.h"
 
 /* ==== paints what explains a form: areas below it; lines, arrows, marks and texts over it */

@@ -7,7 +7,7 @@
 #include <stdbool.h>
 
 #include "runtime/base/random.h"
-#include "runtime/numeric/numeric.h"
+#include "runtime/math/elementary.h"
 
 typedef enum tn_purpose {
     TN_PURPOSE_INITIALISE = 1, /* number: the individual */

@@ -6,11 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/math/elementary.h"
 #include "runtime/number/data.h"
 #include "runtime/number/formula.h"
 #include "runtime/number/run.h"
 #include "runtime/number/shared.h"
-#include "runtime/numeric/numeric.h"
 
 /* ==== measures of errors, of numbers and of classes */
 

@@ -8,7 +8,7 @@
 #include "runtime/draw/canvas.h"
 #include "runtime/draw/scales.h"
 #include "runtime/draw/type.h"
-#include "runtime/numeric/numeric.h"
+#include "runtime/math/elementary.h"
 
 /* In points. */
 #define WIDTH 640.0

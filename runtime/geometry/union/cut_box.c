@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "runtime/numeric/numeric.h"
+#include "runtime/math/elementary.h"
 
 /* The corners of each side in order; bit 0 of a corner is high x, bit 1 y, bit 2 z. */
 static const uint8_t sides[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};

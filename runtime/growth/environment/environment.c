@@ -1,7 +1,7 @@
 /* Moves vertices by forces, and stops them at boundaries. */
 #include "runtime/growth/environment/environment.h"
 
-#include "runtime/numeric/numeric.h"
+#include "runtime/math/elementary.h"
 
 /* Within this of a boundary a vertex counts as on it. */
 #define TOUCH 1e-9

@@ -7,7 +7,7 @@
 
 #include "runtime/geometry/vector.h"
 #include "runtime/growth/model/map.h"
-#include "runtime/numeric/any_width.h"
+#include "runtime/math/any_width.h"
 
 #define TN_ROW 32u
 typedef double tn_row[TN_ROW];

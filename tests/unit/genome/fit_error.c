@@ -10,7 +10,7 @@
 
 #include "runtime/genome/breeding/problem.h"
 #include "runtime/genome/breeding/select.h"
-#include "runtime/numeric/numeric.h"
+#include "runtime/math/elementary.h"
 
 static double cost(tn_fit_error measure, const double *wanted, const double *values, size_t count)
 {

@@ -13,7 +13,7 @@
 #include <cmocka.h>
 
 #include "runtime/base/random.h"
-#include "runtime/numeric/numeric.h"
+#include "runtime/math/elementary.h"
 
 static double between(uint64_t stream, uint64_t i, double low, double high)
 {

@@ -7,8 +7,8 @@
  *
  * Everything that may reach a result - in the compiler as in the engines - uses these and none of the C library's.
  */
-#ifndef TARTAN_NUMERIC_NUMERIC_H
-#define TARTAN_NUMERIC_NUMERIC_H
+#ifndef TARTAN_MATH_ELEMENTARY_H
+#define TARTAN_MATH_ELEMENTARY_H
 
 #include <stddef.h>
 
