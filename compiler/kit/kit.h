@@ -217,22 +217,22 @@ typedef struct tn_kit_region {
 } tn_kit_region;
 
 /* Where a space is, in LDU, and by how many quarter turns about the vertical it is turned. */
-typedef struct tn_kit_spot {
+typedef struct tn_space_placement {
     double at[3];
     uint32_t turns;
-} tn_kit_spot;
+} tn_space_placement;
 
-/* Cells that a file gave: x fastest, then z, then y, as the head has them. One file at two spots has two. */
-typedef struct tn_kit_mask {
+/* Cells that a file gave: x fastest, then z, then y, as the head has them. One file at two placements has two. */
+typedef struct tn_kit_voxels {
     const tn_kit_node *node; /* that names the file */
-    tn_kit_spot spot;
+    tn_space_placement placement;
     bool wrong; /* it was complained of */
     int32_t low[3];
     uint32_t size[3], index;
     uint64_t *bits;
     size_t words;
-    struct tn_kit_mask *next;
-} tn_kit_mask;
+    struct tn_kit_voxels *next;
+} tn_kit_voxels;
 
 /* The parts of a model that a file has; what was complained of has none. */
 typedef struct tn_kit_parts {
@@ -279,8 +279,8 @@ typedef struct tn_kit {
         tn_kit_model *first, *last;
     } model_list;
     struct {
-        tn_kit_mask *first, *last;
-    } mask_list;
+        tn_kit_voxels *first, *last;
+    } voxels_list;
     struct {
         tn_kit_parts *first, *last;
     } file_list;
@@ -290,8 +290,8 @@ typedef struct tn_kit {
     uint32_t turns; /* that parts have: 4 or 24 */
     uint32_t part_count;
     const char *counted[TN_KIT_COUNTED_MAX];
-    size_t mask_words;
-    uint32_t mask_count, masks_placed;       /* those that models have come first */
+    size_t voxel_words;
+    uint32_t voxels_count, voxels_placed;    /* those that models have come first */
     uint32_t counted_count, shapes;          /* shapes: of the space at hand, each as often as it is named */
     bool damaged, names_lost, out_of_memory; /* names_lost: some may be missing because of errors that were reported */
 } tn_kit;
@@ -326,9 +326,9 @@ void tn_kit_check_part(tn_kit *kit, tn_kit_part *part);
 bool tn_kit_axis(tn_kit *kit, const tn_kit_text *word, tn_axis *axis);
 tn_kit_region tn_kit_check_space(tn_kit *kit, const tn_kit_node *node);
 
-/* The space that a file gives at a spot (mask.c), and the parts of a model that it has (stands.c): never NULL but where
- * out of memory. */
-tn_kit_region tn_kit_region_of_file(tn_kit *kit, const tn_kit_node *node, const tn_kit_spot *spot);
+/* The space that a file gives at a placement (voxels.c), and the parts of a model that it has (model.c): never NULL
+ * but where out of memory. */
+tn_kit_region tn_kit_region_of_file(tn_kit *kit, const tn_kit_node *node, const tn_space_placement *placement);
 const tn_kit_parts *tn_kit_parts_of_file(tn_kit *kit, const tn_kit_node *node);
 
 /* The lengths that a shape takes, in their order: a file may write their names before them. */

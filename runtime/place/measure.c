@@ -6,11 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/hash_table.h"
+#include "runtime/base/random.h"
 #include "runtime/module/code.h"
 #include "runtime/number/run.h"
 #include "runtime/place/joints.h"
 #include "runtime/place/space.h"
-#include "runtime/place/write.h"
 
 /* ==== measures placed models */
 
@@ -239,6 +240,52 @@ void tn_placed_sums(const tn_module *module, const uint64_t *used, double terms[
         const tn_kit_part_record *part = tn_kit_part_named(module, tn_text(module, module->COUNTED_records[c].part));
         terms[TN_PLACED_COUNTED + c] = part ? (double)used[part - module->KIT_PART_records] : 0;
     }
+}
+
+/* ---- counts of parts */
+
+typedef struct wanted_part {
+    const tn_part_count *counts;
+    const char *name;
+    int32_t colour;
+} wanted_part;
+
+static bool is_wanted(const void *context, uint32_t number)
+{
+    const wanted_part *w = context;
+    const tn_part_count *found = &w->counts[number];
+    return found->colour == w->colour && strcmp(found->name, w->name) == 0;
+}
+
+/* Texts of one name are one text of the module. */
+static uint64_t hash_of(const char *name, int32_t colour)
+{
+    return tn_mix64((uint64_t)(uintptr_t)name ^ tn_mix64((uint32_t)colour));
+}
+
+tn_status tn_place_count_parts(const tn_placed_model *model, tn_part_count **counts, size_t *kinds, tn_error *error)
+{
+    tn_hash_table index = {0};
+    *kinds = 0;
+    *counts = calloc(model->count + 1, sizeof **counts);
+    tn_status status = *counts ? TN_OK : tn_fail_memory(error);
+    for (size_t i = 0; i < model->count && status == TN_OK; i++) {
+        const tn_placed_part *part = &model->parts[i];
+        wanted_part wanted = {*counts, part->name, part->frame.colour};
+        uint32_t number = (uint32_t)*kinds;
+        status = tn_hash_enter(&index, hash_of(wanted.name, wanted.colour), is_wanted, &wanted, &number, error);
+        if (status != TN_OK)
+            break;
+        if (number == *kinds)
+            (*counts)[(*kinds)++] = (tn_part_count){wanted.name, wanted.colour, 0};
+        (*counts)[number].count++;
+    }
+    tn_hash_clear(&index);
+    if (status == TN_OK)
+        return TN_OK;
+    free(*counts);
+    *counts = NULL;
+    return status;
 }
 
 static tn_status count_kinds(const tn_module *module, const tn_placed_model *model, tn_placed_measures *m,

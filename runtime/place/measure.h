@@ -54,4 +54,14 @@ tn_status tn_kit_fail_condition(const tn_module *module, const tn_kit_condition_
 tn_status tn_kit_measure_required(const tn_place_rules *rules, const tn_placed_model *model, tn_watch *watch,
                                   bool *required, tn_placed_measures *measured, tn_error *error);
 
+/* How many parts there are of a name and colour. */
+typedef struct tn_part_count {
+    const char *name;
+    int32_t colour;
+    uint64_t count;
+} tn_part_count;
+
+/* All of these, in the order of their first; *counts is the caller's to free. */
+tn_status tn_place_count_parts(const tn_placed_model *model, tn_part_count **counts, size_t *kinds, tn_error *error);
+
 #endif

@@ -5,9 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/base/hash_table.h"
 #include "runtime/base/int128.h"
-#include "runtime/base/random.h"
 
 /* The matrix of a turn, row by row: its columns are where right, down and back point. */
 static void write_turn(uint32_t turn, FILE *out)
@@ -132,50 +130,6 @@ void tn_place_write_mpd(const tn_module *module, const tn_placed_model *model, c
 }
 
 /* ---- lists of parts */
-
-typedef struct wanted_part {
-    const tn_part_count *counts;
-    const char *name;
-    int32_t colour;
-} wanted_part;
-
-static bool is_wanted(const void *context, uint32_t number)
-{
-    const wanted_part *w = context;
-    const tn_part_count *found = &w->counts[number];
-    return found->colour == w->colour && strcmp(found->name, w->name) == 0;
-}
-
-/* Texts of one name are one text of the module. */
-static uint64_t hash_of(const char *name, int32_t colour)
-{
-    return tn_mix64((uint64_t)(uintptr_t)name ^ tn_mix64((uint32_t)colour));
-}
-
-tn_status tn_place_count_parts(const tn_placed_model *model, tn_part_count **counts, size_t *kinds, tn_error *error)
-{
-    tn_hash_table index = {0};
-    *kinds = 0;
-    *counts = calloc(model->count + 1, sizeof **counts);
-    tn_status status = *counts ? TN_OK : tn_fail_memory(error);
-    for (size_t i = 0; i < model->count && status == TN_OK; i++) {
-        const tn_placed_part *part = &model->parts[i];
-        wanted_part wanted = {*counts, part->name, part->frame.colour};
-        uint32_t number = (uint32_t)*kinds;
-        status = tn_hash_enter(&index, hash_of(wanted.name, wanted.colour), is_wanted, &wanted, &number, error);
-        if (status != TN_OK)
-            break;
-        if (number == *kinds)
-            (*counts)[(*kinds)++] = (tn_part_count){wanted.name, wanted.colour, 0};
-        (*counts)[number].count++;
-    }
-    tn_hash_clear(&index);
-    if (status == TN_OK)
-        return TN_OK;
-    free(*counts);
-    *counts = NULL;
-    return status;
-}
 
 /* A field of a CSV file: in quotes where it has to be. */
 static void write_field(const char *text, FILE *out)

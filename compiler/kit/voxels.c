@@ -38,40 +38,40 @@ static void too_many(tn_kit *kit, const tn_kit_node *node, const char *what)
 }
 
 /* Room for the cells of a box in LDU, y upwards. */
-static bool make_room(tn_kit *kit, tn_kit_mask *mask, const double low[3], const double high[3])
+static bool make_room(tn_kit *kit, tn_kit_voxels *voxels, const double low[3], const double high[3])
 {
     double cells = 1;
     for (int k = 0; k < 3; k++) {
         double unit = (double)kit->unit[k] / 1e6;
         double from = floor((k == 1 ? -high[k] : low[k]) / unit), to = ceil((k == 1 ? -low[k] : high[k]) / unit);
         if (!(from > -TN_PLACE_FAR && to < TN_PLACE_FAR)) {
-            too_many(kit, mask->node, "this space reaches too far");
+            too_many(kit, voxels->node, "this space reaches too far");
             return false;
         }
-        mask->low[k] = (int32_t)from;
-        mask->size[k] = (uint32_t)(to - from);
+        voxels->low[k] = (int32_t)from;
+        voxels->size[k] = (uint32_t)(to - from);
         cells *= to - from;
     }
-    if (kit->mask_count == TN_KIT_MASKS_MAX || cells > 64.0 * (TN_MASK_WORDS_MAX - (double)kit->mask_words)) {
-        too_many(kit, mask->node,
-                 kit->mask_count == TN_KIT_MASKS_MAX ? "spaces from files stand at too many places"
-                                                     : "spaces from files have too many cells");
+    if (kit->voxels_count == TN_KIT_MASKS_MAX || cells > 64.0 * (TN_MASK_WORDS_MAX - (double)kit->voxel_words)) {
+        too_many(kit, voxels->node,
+                 kit->voxels_count == TN_KIT_MASKS_MAX ? "spaces from files stand at too many places"
+                                                       : "spaces from files have too many cells");
         return false;
     }
-    mask->words = ((size_t)cells + 63) / 64;
-    mask->bits = TN_NEW_ARRAY(kit->arena, uint64_t, mask->words + 1);
-    kit->mask_words += mask->words;
-    return mask->bits != NULL;
+    voxels->words = ((size_t)cells + 63) / 64;
+    voxels->bits = TN_NEW_ARRAY(kit->arena, uint64_t, voxels->words + 1);
+    kit->voxel_words += voxels->words;
+    return voxels->bits != NULL;
 }
 
-/* The middle of a cell, in LDU from the spot, turned back. */
-static void place_in(const tn_kit *kit, const tn_kit_mask *mask, const uint32_t cell[3], double place[3])
+/* The middle of a cell, in LDU from the placement, turned back. */
+static void place_in(const tn_kit *kit, const tn_kit_voxels *voxels, const uint32_t cell[3], double place[3])
 {
     for (int k = 0; k < 3; k++) {
-        double unit = (double)kit->unit[k] / 1e6, middle = (mask->low[k] + (double)cell[k] + 0.5) * unit;
-        place[k] = (k == 1 ? -middle : middle) - mask->spot.at[k];
+        double unit = (double)kit->unit[k] / 1e6, middle = (voxels->low[k] + (double)cell[k] + 0.5) * unit;
+        place[k] = (k == 1 ? -middle : middle) - voxels->placement.at[k];
     }
-    for (uint32_t t = 0; t < mask->spot.turns % 4; t++) {
+    for (uint32_t t = 0; t < voxels->placement.turns % 4; t++) {
         double x = place[0];
         place[0] = place[2];
         place[2] = -x;
@@ -81,27 +81,28 @@ static void place_in(const tn_kit *kit, const tn_kit_mask *mask, const uint32_t 
 /* Is this place inside? */
 typedef bool holds(const void *context, const double place[3]);
 
-static void fill_where(const tn_kit *kit, tn_kit_mask *mask, holds *inside, const void *context)
+static void fill_where(const tn_kit *kit, tn_kit_voxels *voxels, holds *inside, const void *context)
 {
     size_t bit = 0;
     uint32_t cell[3];
-    for (cell[1] = 0; cell[1] < mask->size[1]; cell[1]++) {
-        for (cell[2] = 0; cell[2] < mask->size[2]; cell[2]++) {
-            for (cell[0] = 0; cell[0] < mask->size[0]; cell[0]++, bit++) {
+    for (cell[1] = 0; cell[1] < voxels->size[1]; cell[1]++) {
+        for (cell[2] = 0; cell[2] < voxels->size[2]; cell[2]++) {
+            for (cell[0] = 0; cell[0] < voxels->size[0]; cell[0]++, bit++) {
                 double place[3];
-                place_in(kit, mask, cell, place);
+                place_in(kit, voxels, cell, place);
                 if (inside(context, place))
-                    mask->bits[bit / 64] |= UINT64_C(1) << bit % 64;
+                    voxels->bits[bit / 64] |= UINT64_C(1) << bit % 64;
             }
         }
     }
 }
 
-/* A box about the spot's origin, turned and moved to where it is. */
-static void box_at(const tn_kit_spot *spot, const double from[3], const double to[3], double low[3], double high[3])
+/* A box about the placement's origin, turned and moved to where it is. */
+static void box_at(const tn_space_placement *placement, const double from[3], const double to[3], double low[3],
+                   double high[3])
 {
     double a[2] = {from[0], from[2]}, b[2] = {to[0], to[2]};
-    for (uint32_t t = 0; t < spot->turns % 4; t++) {
+    for (uint32_t t = 0; t < placement->turns % 4; t++) {
         double x[2] = {a[0], b[0]};
         a[0] = -b[1];
         b[0] = -a[1];
@@ -109,8 +110,8 @@ static void box_at(const tn_kit_spot *spot, const double from[3], const double t
         b[1] = x[1];
     }
     for (int k = 0; k < 3; k++) {
-        low[k] = spot->at[k] + (k == 1 ? from[1] : a[k / 2]);
-        high[k] = spot->at[k] + (k == 1 ? to[1] : b[k / 2]);
+        low[k] = placement->at[k] + (k == 1 ? from[1] : a[k / 2]);
+        high[k] = placement->at[k] + (k == 1 ? to[1] : b[k / 2]);
     }
 }
 
@@ -148,20 +149,21 @@ static bool mesh_bounds(const tn_mesh *mesh, double low[3], double high[3])
     return mesh->vertex_count > 0 && mesh->face_count > 0;
 }
 
-/* Puts the mesh on the floor of its spot: x, z and the height, in LDU. */
-static void lay_mesh(tn_mesh *mesh, const tn_kit_spot *spot, double scale, const double low[3], const double high[3])
+/* Puts the mesh on the floor of its placement: x, z and the height, in LDU. */
+static void lay_mesh(tn_mesh *mesh, const tn_space_placement *placement, double scale, const double low[3],
+                     const double high[3])
 {
     for (size_t v = 0; v < mesh->vertex_count; v++) {
         double *p = mesh->positions + 3 * v;
         double x = (p[0] - (low[0] + high[0]) / 2) * scale, z = (p[1] - (low[1] + high[1]) / 2) * scale;
-        for (uint32_t t = 0; t < spot->turns % 4; t++) {
+        for (uint32_t t = 0; t < placement->turns % 4; t++) {
             double before = x;
             x = -z;
             z = before;
         }
-        p[0] = x + spot->at[0];
-        p[1] = z + spot->at[2];
-        p[2] = (p[2] - low[2]) * scale + spot->at[1];
+        p[0] = x + placement->at[0];
+        p[1] = z + placement->at[2];
+        p[2] = (p[2] - low[2]) * scale + placement->at[1];
     }
 }
 
@@ -195,40 +197,40 @@ static bool is_closed(tn_kit *kit, const tn_kit_node *node, const tn_mesh *mesh)
     return false;
 }
 
-static bool fill_mesh(tn_kit *kit, tn_kit_mask *mask, tn_mesh *mesh, double height)
+static bool fill_mesh(tn_kit *kit, tn_kit_voxels *voxels, tn_mesh *mesh, double height)
 {
     double low[3], high[3], from[3], to[3];
     tn_error error;
     if (!mesh_bounds(mesh, low, high)) {
         tn_fail(&error, TN_INVALID, TN_CODE_NONE, "it has no faces, or places that are no numbers");
-        tn_kit_file_failed(kit, mask->node, TN_INVALID, &error);
+        tn_kit_file_failed(kit, voxels->node, TN_INVALID, &error);
         return false;
     }
     double scale = height > 0 && high[2] > low[2] ? height / (high[2] - low[2]) : mm;
-    lay_mesh(mesh, &mask->spot, scale, low, high);
+    lay_mesh(mesh, &voxels->placement, scale, low, high);
     mesh_bounds(mesh, low, high);
     for (int k = 0; k < 3; k++) { /* x, z, height to x, height, z */
         from[k] = low[k == 0 ? 0 : 3 - k];
         to[k] = high[k == 0 ? 0 : 3 - k];
     }
-    if (!make_room(kit, mask, from, to))
+    if (!make_room(kit, voxels, from, to))
         return false;
     const tn_mesh_grid grid = {
-        {mask->low[0], mask->low[2], mask->low[1]},
+        {voxels->low[0], voxels->low[2], voxels->low[1]},
         {(double)kit->unit[0] / 1e6, (double)kit->unit[2] / 1e6, -(double)kit->unit[1] / 1e6},
-        {mask->size[0], mask->size[2], mask->size[1]},
+        {voxels->size[0], voxels->size[2], voxels->size[1]},
     };
-    tn_status status = tn_mesh_fill_grid(mesh, &grid, mask->bits, &error);
+    tn_status status = tn_mesh_fill_grid(mesh, &grid, voxels->bits, &error);
     if (status != TN_OK)
-        tn_kit_file_failed(kit, mask->node, status, &error);
+        tn_kit_file_failed(kit, voxels->node, status, &error);
     return status == TN_OK;
 }
 
 static const tn_kit_extents mesh_extents = {{"height"}, 1, "mesh(\"statue.stl\", 20 bricks): how high it is"};
 
-static bool make_mesh(tn_kit *kit, tn_kit_mask *mask)
+static bool make_mesh(tn_kit *kit, tn_kit_voxels *voxels)
 {
-    const tn_kit_node *node = mask->node;
+    const tn_kit_node *node = voxels->node;
     double size[3] = {0};
     bool y_up;
     tn_mesh mesh = {0};
@@ -244,7 +246,7 @@ static bool make_mesh(tn_kit *kit, tn_kit_mask *mask)
         status = tn_mesh_triangulate(&mesh, &error);
     if (status != TN_OK)
         tn_kit_file_failed(kit, node, status, &error);
-    made = made && status == TN_OK && fill_mesh(kit, mask, &mesh, size[0]);
+    made = made && status == TN_OK && fill_mesh(kit, voxels, &mesh, size[0]);
     tn_mesh_clear(&mesh);
     return made;
 }
@@ -270,9 +272,9 @@ static const tn_kit_extents hill_extents = {
     3,
     "heightmap(\"hill.pgm\", 32 studs, 10 bricks, 32 studs): width, height of what is white, and depth"};
 
-static bool make_hill(tn_kit *kit, tn_kit_mask *mask)
+static bool make_hill(tn_kit *kit, tn_kit_voxels *voxels)
 {
-    const tn_kit_node *node = mask->node;
+    const tn_kit_node *node = voxels->node;
     double size[3], low[3], high[3];
     uint8_t *bytes = NULL;
     size_t count = 0;
@@ -286,10 +288,10 @@ static bool make_hill(tn_kit *kit, tn_kit_mask *mask)
     if (status == TN_OK)
         status = (tn_is_png(bytes, count) ? tn_heights_read_png : tn_heights_read)(bytes, count, &heights, &error);
     free(bytes);
-    box_at(&mask->spot, from, to, low, high);
-    bool made = status == TN_OK && make_room(kit, mask, low, high);
+    box_at(&voxels->placement, from, to, low, high);
+    bool made = status == TN_OK && make_room(kit, voxels, low, high);
     if (made)
-        fill_where(kit, mask, hill_holds, &(hill){&heights, size});
+        fill_where(kit, voxels, hill_holds, &(hill){&heights, size});
     else if (status != TN_OK)
         tn_kit_file_failed(kit, node, status, &error);
     tn_heights_clear(&heights);
@@ -298,23 +300,24 @@ static bool make_hill(tn_kit *kit, tn_kit_mask *mask)
 
 /* ---- models */
 
-static void fill_box(tn_kit_mask *mask, const tn_cell_box *box)
+static void fill_box(tn_kit_voxels *voxels, const tn_cell_box *box)
 {
     int32_t cell[3];
     for (cell[1] = box->low[1]; cell[1] < box->high[1]; cell[1]++) {
         for (cell[2] = box->low[2]; cell[2] < box->high[2]; cell[2]++) {
             for (cell[0] = box->low[0]; cell[0] < box->high[0]; cell[0]++) {
-                size_t bit = ((size_t)(cell[1] - mask->low[1]) * mask->size[2] + (size_t)(cell[2] - mask->low[2])) *
-                                 mask->size[0] +
-                             (size_t)(cell[0] - mask->low[0]);
-                mask->bits[bit / 64] |= UINT64_C(1) << bit % 64;
+                size_t bit =
+                    ((size_t)(cell[1] - voxels->low[1]) * voxels->size[2] + (size_t)(cell[2] - voxels->low[2])) *
+                        voxels->size[0] +
+                    (size_t)(cell[0] - voxels->low[0]);
+                voxels->bits[bit / 64] |= UINT64_C(1) << bit % 64;
             }
         }
     }
 }
 
 /* The cells of the model where it stands. */
-static bool make_standing(tn_kit *kit, tn_kit_mask *mask, const tn_kit_parts *parts)
+static bool make_standing(tn_kit *kit, tn_kit_voxels *voxels, const tn_kit_parts *parts)
 {
     tn_cell_box all = {{INT32_MAX, INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN, INT32_MIN}}, box;
     double low[3], high[3];
@@ -329,16 +332,16 @@ static bool make_standing(tn_kit *kit, tn_kit_mask *mask, const tn_kit_parts *pa
         low[k] = (k == 1 ? -(double)all.high[k] : all.low[k]) * unit;
         high[k] = (k == 1 ? -(double)all.low[k] : all.high[k]) * unit;
     }
-    if (all.low[0] > all.high[0] || !make_room(kit, mask, low, high))
+    if (all.low[0] > all.high[0] || !make_room(kit, voxels, low, high))
         return false;
     for (int k = 0; k < 3; k++) { /* exactly, whatever dividing has left */
-        mask->low[k] = all.low[k];
-        mask->size[k] = (uint32_t)(all.high[k] - all.low[k]);
+        voxels->low[k] = all.low[k];
+        voxels->size[k] = (uint32_t)(all.high[k] - all.low[k]);
     }
     for (const tn_kit_stands *one = parts->first; one; one = one->next) {
         for (uint32_t i = 0; i < one->part->box_count; i++) {
             box = tn_kit_box_of(one, i);
-            fill_box(mask, &box);
+            fill_box(voxels, &box);
         }
     }
     return true;
@@ -346,7 +349,7 @@ static bool make_standing(tn_kit *kit, tn_kit_mask *mask, const tn_kit_parts *pa
 
 typedef struct standing {
     const tn_kit *kit;
-    const tn_kit_mask *mask;
+    const tn_kit_voxels *voxels;
 } standing;
 
 static bool standing_holds(const void *context, const double place[3])
@@ -355,19 +358,19 @@ static bool standing_holds(const void *context, const double place[3])
     uint64_t cell[3];
     for (int k = 0; k < 3; k++) {
         double unit = (double)s->kit->unit[k] / 1e6,
-               at = floor((k == 1 ? -place[k] : place[k]) / unit) - s->mask->low[k];
-        if (!(at >= 0 && at < s->mask->size[k]))
+               at = floor((k == 1 ? -place[k] : place[k]) / unit) - s->voxels->low[k];
+        if (!(at >= 0 && at < s->voxels->size[k]))
             return false;
         cell[k] = (uint64_t)at;
     }
-    uint64_t bit = (cell[1] * s->mask->size[2] + cell[2]) * s->mask->size[0] + cell[0];
-    return s->mask->bits[bit / 64] >> bit % 64 & 1;
+    uint64_t bit = (cell[1] * s->voxels->size[2] + cell[2]) * s->voxels->size[0] + cell[0];
+    return s->voxels->bits[bit / 64] >> bit % 64 & 1;
 }
 
-static bool make_model(tn_kit *kit, tn_kit_mask *mask)
+static bool make_model(tn_kit *kit, tn_kit_voxels *voxels)
 {
-    const tn_kit_parts *parts = tn_kit_parts_of_file(kit, mask->node);
-    tn_kit_mask still = {.node = mask->node};
+    const tn_kit_parts *parts = tn_kit_parts_of_file(kit, voxels->node);
+    tn_kit_voxels still = {.node = voxels->node};
     double from[3], to[3], low[3], high[3];
     if (!parts || !parts->first || !make_standing(kit, &still, parts))
         return false;
@@ -376,29 +379,29 @@ static bool make_model(tn_kit *kit, tn_kit_mask *mask)
         from[k] = (k == 1 ? -end : still.low[k]) * unit;
         to[k] = (k == 1 ? -(double)still.low[k] : end) * unit;
     }
-    kit->mask_words -= still.words;
-    box_at(&mask->spot, from, to, low, high);
-    if (!make_room(kit, mask, low, high))
+    kit->voxel_words -= still.words;
+    box_at(&voxels->placement, from, to, low, high);
+    if (!make_room(kit, voxels, low, high))
         return false;
-    fill_where(kit, mask, standing_holds, &(standing){kit, &still});
+    fill_where(kit, voxels, standing_holds, &(standing){kit, &still});
     return true;
 }
 
 /* ---- all */
 
-static bool make(tn_kit *kit, tn_kit_mask *mask)
+static bool make(tn_kit *kit, tn_kit_voxels *voxels)
 {
     static const char *const kinds[] = {"mesh", "heightmap", "model"};
-    static bool (*const makers[])(tn_kit *, tn_kit_mask *) = {make_mesh, make_hill, make_model};
-    const tn_kit_text *name = &mask->node->name;
+    static bool (*const makers[])(tn_kit *, tn_kit_voxels *) = {make_mesh, make_hill, make_model};
+    const tn_kit_text *name = &voxels->node->name;
     tn_error error;
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         if (strcasecmp(kinds[i], name->text) != 0)
             continue;
         if (kit->attachments->bytes && kit->attachments->mesh)
-            return makers[i](kit, mask);
+            return makers[i](kit, voxels);
         tn_fail(&error, TN_INVALID, TN_CODE_NONE, "no files can be read here");
-        tn_kit_file_failed(kit, mask->node, TN_INVALID, &error);
+        tn_kit_file_failed(kit, voxels->node, TN_INVALID, &error);
         return false;
     }
     tn_diagnostic *d = tn_report(kit->diagnostics, E_KIT_SPACE, name->span, "`%.100s` takes no file", name->text);
@@ -410,41 +413,41 @@ static bool make(tn_kit *kit, tn_kit_mask *mask)
     return false;
 }
 
-static const tn_kit_mask *mask_of(tn_kit *kit, const tn_kit_node *node, const tn_kit_spot *spot)
+static const tn_kit_voxels *voxels_of(tn_kit *kit, const tn_kit_node *node, const tn_space_placement *placement)
 {
-    tn_kit_mask *mask = kit->mask_list.first;
-    while (mask && (mask->node != node || memcmp(mask->spot.at, spot->at, sizeof spot->at) != 0 ||
-                    mask->spot.turns % 4 != spot->turns % 4))
-        mask = mask->next;
-    if (mask)
-        return mask;
-    mask = TN_NEW(kit->arena, tn_kit_mask);
-    if (!mask)
+    tn_kit_voxels *voxels = kit->voxels_list.first;
+    while (voxels && (voxels->node != node || memcmp(voxels->placement.at, placement->at, sizeof placement->at) != 0 ||
+                      voxels->placement.turns % 4 != placement->turns % 4))
+        voxels = voxels->next;
+    if (voxels)
+        return voxels;
+    voxels = TN_NEW(kit->arena, tn_kit_voxels);
+    if (!voxels)
         return NULL;
-    mask->node = node;
-    mask->spot = *spot;
-    mask->wrong = !make(kit, mask);
-    mask->index = mask->wrong ? 0 : kit->mask_count++;
-    TN_CHAIN(&kit->mask_list, mask);
-    return mask;
+    voxels->node = node;
+    voxels->placement = *placement;
+    voxels->wrong = !make(kit, voxels);
+    voxels->index = voxels->wrong ? 0 : kit->voxels_count++;
+    TN_CHAIN(&kit->voxels_list, voxels);
+    return voxels;
 }
 
-tn_kit_region tn_kit_region_of_file(tn_kit *kit, const tn_kit_node *node, const tn_kit_spot *spot)
+tn_kit_region tn_kit_region_of_file(tn_kit *kit, const tn_kit_node *node, const tn_space_placement *placement)
 {
-    const tn_kit_mask *mask = mask_of(kit, node, spot);
+    const tn_kit_voxels *voxels = voxels_of(kit, node, placement);
     tn_kit_region region = {.inside = NULL};
-    if (!mask || mask->wrong)
+    if (!voxels || voxels->wrong)
         return region;
-    tn_expression *e = tn_expression_name(kit->arena, node->span, tn_placed_terms[TN_PLACED_MASK + mask->index]);
+    tn_expression *e = tn_expression_name(kit->arena, node->span, tn_placed_terms[TN_PLACED_MASK + voxels->index]);
     if (!e)
         return region;
-    e->term = TN_PLACED_MASK + mask->index;
+    e->term = TN_PLACED_MASK + voxels->index;
     region.inside = tn_expression_of(kit->arena, TN_OP_IS_ABOVE, node->span, e,
                                      tn_expression_number(kit->arena, node->span, 0), NULL);
     for (int k = 0; k < 3; k++) {
-        double unit = (double)kit->unit[k] / 1e6, end = mask->low[k] + (double)mask->size[k];
-        region.low[k] = (k == 1 ? -end : mask->low[k]) * unit;
-        region.high[k] = (k == 1 ? -(double)mask->low[k] : end) * unit;
+        double unit = (double)kit->unit[k] / 1e6, end = voxels->low[k] + (double)voxels->size[k];
+        region.low[k] = (k == 1 ? -end : voxels->low[k]) * unit;
+        region.high[k] = (k == 1 ? -(double)voxels->low[k] : end) * unit;
     }
     return region;
 }
