@@ -24,17 +24,17 @@ enum {
 #define TN_NOTATION(ID) (&tn_notations[TN_NOTATION_ROW_##ID])
 
 /* The notation of a file, by the end of its path and, where several have that, by its text: the one whose word heads a
- * block in it. NULL where no notation's files end so. */
+ * block in it. NULL if no notation's files end so. */
 const tn_notation *tn_notation_of(const char *path, const char *text, size_t size);
 
 /* The same, where texts whose path says nothing are taken for the first notation's. */
 const tn_notation *tn_notation_or_first(const char *path, const char *text, size_t size);
 
 /* The notation of a text by what editors and --notation call its language, which is its extension without the point.
- * NULL where there is none. */
+ * NULL if there is none. */
 const tn_notation *tn_notation_of_language(const char *language, const char *text, size_t size);
 
-/* The notation that a module was compiled from: the first row whose front end made it. NULL where there is nothing in
+/* The notation that a module was compiled from: the first row whose front end made it. NULL if there is nothing in
  * it.
  */
 const tn_notation *tn_notation_of_module(const tn_module *module);
@@ -57,7 +57,7 @@ bool tn_notation_takes(const tn_notation *notation, const char *command);
 /* "it is a grammar that genomes are mapped through: `tartan map` takes it", into a text of that size. */
 void tn_notation_help(const tn_notation *notation, char *text, size_t size);
 
-/* Compiles a text of the notation. The result's diagnostics say what is wrong; returns TN_OK, or TN_INVALID where there
+/* Compiles a text of the notation. The result's diagnostics say what is wrong; returns TN_OK, or TN_INVALID if there
  * is an error, or TN_STOPPED. The input and what the resolver found are not needed afterwards. Free with
  * tn_compilation_clear in any case. */
 tn_status tn_compile_text(const tn_notation *notation, const tn_input *input, const tn_compile_options *options,

@@ -244,7 +244,7 @@ static void bad_range(tn_bnf_reader *reader, const tn_bnf_item *item, size_t len
             "dataset_n_os");
 }
 
-/* `GE_RANGE:n` at the start of an alternative stands for the alternatives 0 to n-1. Returns false where this is none.
+/* `GE_RANGE:n` at the start of an alternative stands for the alternatives 0 to n-1. Returns false if this is none.
  */
 static bool expand_range(tn_bnf_reader *reader, tn_bnf_rule *rule, const tn_bnf_alternative *from,
                          tn_bnf_alternatives *kept)

@@ -173,7 +173,7 @@ static bool is_blank(char c)
 
 /* ---- ge: without the white space around alternatives */
 
-/* Cuts the blanks at one end of a text; false where nothing is left. */
+/* Cuts the blanks at one end of a text; false if nothing is left. */
 static bool cut(const tn_source *source, tn_token *token, bool at_begin)
 {
     tn_span *span = &token->span;
@@ -269,7 +269,7 @@ static size_t alternative_end(const tn_format *format, size_t first, size_t last
     return i;
 }
 
-/* Comments after a bar go before it, since bars start lines. False where there is none to move. */
+/* Comments after a bar go before it, since bars start lines. False if there is none to move. */
 static bool settle_comments(tn_format *format, size_t bar, size_t last)
 {
     tn_format_token *token = &format->tokens[bar];

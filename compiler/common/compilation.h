@@ -106,18 +106,18 @@ typedef struct tn_compilation {
     tn_arena *arena;
     const tn_input *input;                 /* while it is compiled; NULL afterwards */
     const struct tn_number_ranges *ranges; /* of its numbers (diagnostic.h) */
-    struct tn_program *program;            /* checked; NULL where there were errors */
+    struct tn_program *program;            /* checked; NULL if there were errors */
     /* for editors, of a .plan file, and also where there were errors: the files with their syntax trees (import.h), and
      * what became of them (check.h) */
     const struct tn_imports *imports;
     const struct tn_checked *checked;
     const struct tn_checked_fields *fields; /* of a .field file without errors, for breeding (compiler/field/field.h) */
-    uint8_t *module;                        /* bytes of the module, owned; NULL where there were errors */
+    uint8_t *module;                        /* bytes of the module, owned; NULL if there were errors */
     size_t module_size;
 } tn_compilation;
 
 /* How a text asks for a file of the LDraw library that the user has: by a request with this extension, whose path is
- * the file's name there (tn_attachments.bytes). TN_IO, E0901, where there is none. */
+ * the file's name there (tn_attachments.bytes). TN_IO, E0901, if there is none. */
 
 #define TN_LDRAW_LIBRARY ".dat"
 

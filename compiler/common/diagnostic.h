@@ -37,7 +37,7 @@ typedef struct tn_diagnostic {
     bool limit;        /* it says what was not found out since that passes a limit */
     char *help;        /* or NULL */
     char *replacement; /* a text that, put in the span's place, applies the help; or NULL */
-    /* a place in an input that is not a source (a plan file): path and line as text; line 0 where it has none */
+    /* a place in an input that is not a source (a plan file): path and line as text; line 0 if it has none */
     char *input_path;
     uint64_t input_line;
     uint32_t input_column, input_column_end;

@@ -150,7 +150,7 @@ static void report_cycle(tn_importer *importer, const tn_use *use, const tn_unit
 static tn_status load(tn_importer *importer, const tn_input *input, uint32_t file, const char *extension,
                       tn_unit **result);
 
-/* Adds what a `use` led to to the sources, and follows its uses; *unit stays NULL where that fails. */
+/* Adds what a `use` led to to the sources, and follows its uses; *unit stays NULL if that fails. */
 static tn_status add_unit(tn_importer *importer, const tn_use *use, const tn_input *input, tn_unit **unit)
 {
     tn_error error;
@@ -179,7 +179,7 @@ static tn_unit *known(const tn_importer *importer, const tn_input *input)
     return NULL;
 }
 
-/* Asks the resolver; false where the `use` leads nowhere, which has been reported unless *status is TN_MEMORY. */
+/* Asks the resolver; false if the `use` leads nowhere, which has been reported unless *status is TN_MEMORY. */
 static bool resolve(tn_importer *importer, const tn_unit *unit, const tn_use *use, tn_input *input, tn_status *status)
 {
     const char *extension = use->extension ? use->extension : importer->extension;
@@ -223,7 +223,7 @@ static tn_status follow(tn_importer *importer, tn_unit *unit, tn_use *use)
     return TN_OK;
 }
 
-/* Makes a unit of a source; NULL where out of memory. Without an extension it has its name's. */
+/* Makes a unit of a source; NULL if out of memory. Without an extension it has its name's. */
 static tn_unit *new_unit(tn_importer *importer, const tn_input *input, uint32_t file, const char *extension)
 {
     tn_unit *unit = TN_NEW(importer->arena, tn_unit);

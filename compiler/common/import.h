@@ -17,7 +17,7 @@ typedef struct tn_use {
     const char *path;
     tn_span span;          /* of the path in its file */
     const char *extension; /* of what is used; NULL: that of the notation */
-    struct tn_unit *unit;  /* set by importing: what it led to; NULL where that could not be had */
+    struct tn_unit *unit;  /* set by importing: what it led to; NULL if that could not be had */
 } tn_use;
 
 typedef struct tn_unit {
@@ -34,7 +34,7 @@ typedef struct tn_unit {
     uint64_t *reach; /* bit set over units: itself and what it uses, directly or not */
 } tn_unit;
 
-/* Parses a unit: sets its tree, and gives its uses in an array of the arena. False where out of memory. */
+/* Parses a unit: sets its tree, and gives its uses in an array of the arena. False if out of memory. */
 typedef bool tn_parse_unit(tn_arena *arena, tn_diagnostics *diagnostics, tn_unit *unit, tn_use **uses,
                            size_t *use_count);
 
@@ -64,7 +64,7 @@ static inline bool tn_import_reaches(const tn_imports *imports, size_t from, siz
 
 /* The texts that a module was made of, and what made it, as records of the module. */
 
-/* A builder with the compilation's sources, for a front end to add the rest; NULL where out of memory. */
+/* A builder with the compilation's sources, for a front end to add the rest; NULL if out of memory. */
 tn_builder *tn_compilation_begin(const tn_compilation *compilation, const tn_imports *imports, tn_error *error);
 
 /* Makes it the compilation's module where the rest was added well (status), and frees it. Returns what became of it. */

@@ -52,7 +52,7 @@ void tn_layout_spaces(tn_layout *layout, size_t count);
 /* Goes on in a new line, indented so; a line on which nothing is yet is used. */
 void tn_layout_line(tn_layout *layout, size_t indent);
 
-/* The text, with its size; NULL where out of memory. */
+/* The text, with its size; NULL if out of memory. */
 char *tn_layout_finish(tn_layout *layout, size_t *size);
 
 typedef struct tn_format_comment {
@@ -67,7 +67,7 @@ typedef struct tn_format_token {
     size_t size, width;
     const tn_format_comment *comments; /* on lines of their own before it */
     size_t comment_count;
-    tn_format_comment remark; /* after it on its line; text NULL where there is none */
+    tn_format_comment remark; /* after it on its line; text NULL if there is none */
     bool blank;               /* an empty line is before it, and after its comments */
     size_t breaks;            /* line ends that have to be before it; mostly 0 */
     size_t line_ends;         /* those before it that mean something */
@@ -93,7 +93,7 @@ struct tn_format {
     size_t count;
 };
 
-/* How a word of the language is written, zero-ended, in the arena; NULL where out of memory. */
+/* How a word of the language is written, zero-ended, in the arena; NULL if out of memory. */
 typedef const char *tn_format_spell(tn_arena *arena, const char *text, size_t size);
 tn_format_spell tn_format_small_letters;
 
@@ -102,7 +102,7 @@ tn_format_spell tn_format_small_letters;
 void tn_format_take(tn_format *format, tn_arena *arena, const tn_source *source, const tn_tokens *tokens,
                     tn_format_spell *spell);
 
-/* Finds the pairs of brackets. False where they are nested too deep, *place is the token. */
+/* Finds the pairs of brackets. False if they are nested too deep, *place is the token. */
 #define TN_FORMAT_BRACKETS_MAX (4u * TN_NESTING_MAX) /* those that mean nothing count here too */
 bool tn_format_match_brackets(tn_format *format, size_t *place);
 
@@ -115,7 +115,7 @@ bool tn_format_is_any(const tn_format *format, size_t i, const char *const *text
 /* Is token i a word of the language that stands in one of these places, and is one of these uses there? */
 bool tn_format_is_word(const tn_format *format, size_t i, const tn_vocabulary *words, uint64_t places, uint32_t uses);
 
-/* The columns that tokens [first, last) take on one line; TN_FORMAT_TOO_WIDE where they do not fit any, or have
+/* The columns that tokens [first, last) take on one line; TN_FORMAT_TOO_WIDE if they do not fit any, or have
  * comments between them. A comment before the first counts, one after the last does not. */
 size_t tn_format_width(const tn_format *format, size_t first, size_t last);
 

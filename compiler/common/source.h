@@ -71,7 +71,7 @@ typedef struct tn_lines {
     size_t count; /* at least 1 */
 } tn_lines;
 
-bool tn_lines_make(tn_lines *lines, const char *text, size_t size); /* false where out of memory */
+bool tn_lines_make(tn_lines *lines, const char *text, size_t size); /* false if out of memory */
 void tn_lines_clear(tn_lines *lines);
 
 /* The byte at a place; places past a line's end or the text's are cut there. */

@@ -58,7 +58,7 @@ tn_span tn_listing_span(const tn_listing *listing, size_t first, size_t last)
     return tn_span_join(listing->tokens[first].span, listing->tokens[last - 1].span);
 }
 
-/* Room for one more; NULL where out of memory. */
+/* Room for one more; NULL if out of memory. */
 static tn_listing_entry *room(tn_listing *listing)
 {
     if (listing->entry_count == listing->capacity) {

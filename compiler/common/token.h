@@ -66,7 +66,7 @@ typedef struct tn_listing {
     tn_listing_entry forgotten; /* for which there was no memory */
 } tn_listing;
 
-/* Makes a listing of a text's tokens, with no entries yet. False where out of memory. */
+/* Makes a listing of a text's tokens, with no entries yet. False if out of memory. */
 bool tn_listing_start(tn_listing *listing, const char *text, const tn_tokens *tokens);
 
 /* Is token i this, in capitals or not? */

@@ -80,7 +80,7 @@ typedef struct tn_field_file {
 /* Parses the source as a .field file; as tn_parse_hemls. */
 tn_field_file *tn_parse_field(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, tn_tokens *tokens);
 
-/* The lexer, for its parser: NULL where out of memory. */
+/* The lexer, for its parser: NULL if out of memory. */
 void *tn_field_lexer_new(tn_growth_parse *parse);
 void tn_field_lexer_free(void *scanner);
 

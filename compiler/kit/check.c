@@ -3,7 +3,7 @@
 
 #include "compiler/kit/kit.h"
 
-/* Puts a definition under its name; false where that has one already. */
+/* Puts a definition under its name; false if that has one already. */
 static bool define(tn_kit *kit, tn_names *names, const tn_kit_node *node, const char *what, void *value)
 {
     const tn_kit_text *name = &node->name;

@@ -118,7 +118,7 @@ typedef struct tn_kit_file {
     bool damaged; /* something is missing because of errors already reported */
 } tn_kit_file;
 
-/* Parses the source as a .kit file. NULL where out of memory; errors are in the diagnostics. Its tokens go to `tokens`
+/* Parses the source as a .kit file. NULL if out of memory; errors are in the diagnostics. Its tokens go to `tokens`
  * where that is not NULL. */
 tn_kit_file *tn_parse_kit(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, tn_tokens *tokens);
 
@@ -296,7 +296,7 @@ typedef struct tn_kit {
     bool damaged, names_lost, out_of_memory; /* names_lost: some may be missing because of errors that were reported */
 } tn_kit;
 
-/* Checks the files of all units. False where there were errors. */
+/* Checks the files of all units. False if there were errors. */
 bool tn_check_kit(tn_kit *kit, const tn_imports *imports);
 
 /* ---- lengths (length.c). Each reports what is wrong, and is 0 then. */
@@ -381,7 +381,7 @@ typedef struct tn_kit_placement {
 } tn_kit_placement;
 
 /* All different placements of an alternative at a connector of this type and side, in their order; *count of them.
- * NULL where out of memory. The alternative was checked. */
+ * NULL if out of memory. The alternative was checked. */
 tn_kit_placement *tn_kit_placements(tn_kit *kit, const tn_kit_node *places, const tn_kit_type *type, tn_kit_side side,
                                     uint32_t *count);
 

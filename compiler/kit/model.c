@@ -11,7 +11,7 @@
 
 /* ==== what models of kits say of how they are searched for: an objective, a way of searching, images, a stock */
 
-/* Says that a line is there twice; false where it is the first. */
+/* Says that a line is there twice; false if it is the first. */
 static bool is_twice(tn_kit *kit, const tn_kit_node *first, const tn_kit_node *node, const char *word, const char *help)
 {
     if (!first)

@@ -221,7 +221,7 @@ static tn_kit_type *type_named(tn_kit *kit, const tn_kit_part *part, const char 
     return NULL;
 }
 
-/* A connector at a place; each once. False where it was complained of. */
+/* A connector at a place; each once. False if it was complained of. */
 static bool add_joint_of_file(tn_kit *kit, tn_kit_part *part, const char *name, tn_axis axis, const double at[3])
 {
     tn_kit_joint joint = {.type = type_named(kit, part, name), .axis = axis};

@@ -75,7 +75,7 @@ static void unknown_operation(const reading *r, size_t length)
                 "PlaceBoundingBox and PlaceBoundingSphere");
 }
 
-/* The operation that the terminal names, with its arguments; NULL where it is none. */
+/* The operation that the terminal names, with its arguments; NULL if it is none. */
 static const operation *find_operation(const reading *r, tn_pcfg_text *arguments)
 {
     tn_pcfg_text text = r->item->text;
@@ -272,7 +272,7 @@ static void find_nullable(const tn_pcfg_grammar *g)
     }
 }
 
-/* A step that is no bound and can be the first of all; NULL where there is none. */
+/* A step that is no bound and can be the first of all; NULL if there is none. */
 static const tn_pcfg_item *first_step(const tn_pcfg_grammar *g)
 {
     uint32_t *pending = TN_NEW_ARRAY(g->arena, uint32_t, g->count + 1), count = 0;

@@ -196,7 +196,7 @@ static bool format_pcfg_same(const tn_pcfg_reader *one, const tn_pcfg_reader *ot
     return !a && !b;
 }
 
-/* Reads all sources, one after the other, into one list of rules. False where out of memory. */
+/* Reads all sources, one after the other, into one list of rules. False if out of memory. */
 static bool read_all(tn_compilation *c, tn_pcfg_file *rules)
 {
     for (uint32_t file = 0; file < c->sources.count; file++) {

@@ -13,7 +13,7 @@
 /* ==== works out numbers of designs exactly, in tenths and their tenths, and rounds each result once: what is written
  * to touch does touch */
 
-/* Shifts the one with fewer places so that both have as many. False where that passes what is held. */
+/* Shifts the one with fewer places so that both have as many. False if that passes what is held. */
 static bool align(tn_exact *number, int places)
 {
     while (number->places < places) {
@@ -116,7 +116,7 @@ double tn_solid_value(tn_solid_check *check, const tn_solid_number *number)
     return 0;
 }
 
-/* Whole numbers that divide each other as two numbers do. False where one has more than 15 digits. */
+/* Whole numbers that divide each other as two numbers do. False if one has more than 15 digits. */
 static bool divide(tn_exact a, tn_exact b, tn_face_unit *unit)
 {
     int places = a.places > b.places ? a.places : b.places;

@@ -160,7 +160,7 @@ typedef struct tn_checked_solids {
     tn_checked_solid *first, *last;
 } tn_checked_solids;
 
-/* Checks the designs of all units. False where there were errors. */
+/* Checks the designs of all units. False if there were errors. */
 bool tn_check_solids(tn_arena *arena, tn_diagnostics *diagnostics, const tn_imports *imports,
                      tn_checked_solids *solids);
 
@@ -186,7 +186,7 @@ typedef struct tn_solid_place {
 /* The face that a number says; wrong ones are reported, and 0. */
 void tn_solid_corner(tn_solid_check *check, const tn_solid_number *number, tn_solid_place *face);
 
-/* a + b * weight / 2 with weight -1, 0 or 1, worked out exactly; a: NULL for 0. False where it cannot be held. */
+/* a + b * weight / 2 with weight -1, 0 or 1, worked out exactly; a: NULL for 0. False if it cannot be held. */
 bool tn_solid_face(tn_solid_check *check, const tn_solid_number *a, const tn_solid_number *b, int weight,
                    tn_solid_place *face);
 

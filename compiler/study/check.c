@@ -416,7 +416,7 @@ static void take_item(check *c, const tn_study_item *item)
     }
 }
 
-/* NULL where it is the rewrite system. */
+/* NULL if it is the rewrite system. */
 static const tn_study_file *study_of(const tn_imports *imports, size_t unit)
 {
     return strcmp(imports->units[unit]->extension, ".hemls") == 0 ? NULL : imports->units[unit]->tree;

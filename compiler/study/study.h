@@ -112,7 +112,7 @@ typedef struct tn_checked_study {
     tn_span span;
 } tn_checked_study;
 
-/* Checks the studies among the units. False where there were errors. */
+/* Checks the studies among the units. False if there were errors. */
 bool tn_check_study(tn_arena *arena, tn_diagnostics *diagnostics, const tn_imports *imports, tn_checked_study *study);
 
 /* What fitness expressions speak of: everything that is measured of a surface. */

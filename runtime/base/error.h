@@ -38,9 +38,9 @@ typedef enum tn_status {
 
 typedef struct tn_error {
     tn_status status;
-    tn_code code;         /* of the diagnostic; TN_CODE_NONE where it has none */
+    tn_code code;         /* of the diagnostic; TN_CODE_NONE if it has none */
     uint32_t code_offset; /* byte of the code section that it is about, or TN_NO_OFFSET */
-    uint64_t line;        /* place in an input text, from 1; 0 where there is none */
+    uint64_t line;        /* place in an input text, from 1; 0 if there is none */
     uint32_t column;      /* first byte of the place in its line, from 1 */
     uint32_t column_end;  /* one past its last byte */
     char message[480];    /* one sentence without a final full stop */

@@ -55,7 +55,7 @@ tn_status tn_fail_stopped(const tn_watch *watch, tn_error *error);
 /* Compares what the process holds with the limit; past it, the watch is full and work is stopped. */
 void tn_watch_measure(tn_watch *watch);
 
-/* For before a piece of work that needs so many bytes more: TN_LIMIT (E0841) where they pass the limit, TN_MEMORY where
+/* For before a piece of work that needs so many bytes more: TN_LIMIT (E0841) if they pass the limit, TN_MEMORY where
  * the system does not have them. `what` begins a sentence. The watch may be NULL. */
 tn_status tn_watch_room(const tn_watch *watch, uint64_t bytes, const char *what, tn_error *error);
 

@@ -29,7 +29,7 @@ static inline void cell_row_open(const tn_contouring *c, uint32_t y, uint32_t z,
 }
 
 /* Looks at a word: the corners of its cells, and the edges along each axis that cross; those along y go from rows 0 and
- * 2, along z from 0 and 1. False where all corners are alike, so that nothing crosses. */
+ * 2, along z from 0 and 1. False if all corners are alike, so that nothing crosses. */
 static inline bool cell_row_look(const tn_contouring *c, cell_row *row, size_t word)
 {
     uint64_t any = 0, all = ~(uint64_t)0;
@@ -224,7 +224,7 @@ static double dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Do two of the unit normals differ by more than 30 degrees? False where one of them is zero: there none is known. */
+/* Do two of the unit normals differ by more than 30 degrees? False if one of them is zero: there none is known. */
 static bool feature_is_sharp(const double (*normals)[3], uint32_t count)
 {
     bool sharp = false;
@@ -450,7 +450,7 @@ static void room_of(const tn_contouring *c, const cell *in, double low[3], doubl
     }
 }
 
-/* The fan of a loop, if it is sharp. False where out of memory. */
+/* The fan of a loop, if it is sharp. False if out of memory. */
 static bool try_fan(const sharpening *s, layer *to, cell *in, uint8_t first)
 {
     const tn_contouring *c = s->c;

@@ -55,7 +55,7 @@ void tn_contouring_free(tn_contouring *c);
 /* The rows of samples' signs. */
 tn_status tn_contour_signs(tn_contouring *c, tn_error *error);
 
-/* Looks for parts of the form between the samples, into c->out. TN_INVALID (E1417) where all of it lies there. */
+/* Looks for parts of the form between the samples, into c->out. TN_INVALID (E1417) if all of it lies there. */
 tn_status tn_contour_missed(tn_contouring *c, tn_error *error);
 
 /* Numbers the vertices and finds their places. */

@@ -67,7 +67,7 @@ typedef struct tn_field_meshes {
     size_t count;
 } tn_field_meshes;
 
-/* Reads them all; opened: the path of the file or module, beside which they lie. TN_INVALID or TN_IO (E1412) where one
+/* Reads them all; opened: the path of the file or module, beside which they lie. TN_INVALID or TN_IO (E1412) if one
  * is missing or broken. Clear the meshes in any case. */
 tn_status tn_field_meshes_read(const tn_module *module, const tn_mesh_reader *reader, const char *opened,
                                tn_field_meshes *meshes, tn_error *error);
@@ -81,7 +81,7 @@ void tn_field_meshes_clear(tn_field_meshes *meshes);
 tn_status tn_field_normals(const tn_field *field, const tn_mesh *mesh, double spacing, double **normals,
                            tn_error *error);
 
-/* The gradient at a vertex, and its size: 0 where it says nothing about the surface. registers: room for four times
+/* The gradient at a vertex, and its size: 0 if it says nothing about the surface. registers: room for four times
  * field->samples.register_count. */
 double tn_field_slope(const tn_field *field, const double *vertex, double spacing, double *registers,
                       double gradient[3]);

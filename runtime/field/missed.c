@@ -62,7 +62,7 @@ typedef struct pieces {
     double inside[3]; /* a place, once one is found */
 } pieces;
 
-/* Adds an eighth of a piece, unless it is outside. True where some of it is inside. */
+/* Adds an eighth of a piece, unless it is outside. True if some of it is inside. */
 static bool add_piece(search *s, pieces *all, const piece *of, unsigned eighth)
 {
     piece p;

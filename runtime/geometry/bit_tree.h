@@ -66,7 +66,7 @@ static inline void tn_bit_tree_remove(tn_bit_tree *tree, uint32_t member)
             return;
 }
 
-/* The least member that is not below `from`; TN_BIT_TREE_NONE where there is none. */
+/* The least member that is not below `from`; TN_BIT_TREE_NONE if there is none. */
 static inline uint32_t tn_bit_tree_next(const tn_bit_tree *tree, uint32_t from)
 {
     uint32_t level = 0, word = from / 64, top = tree->levels - 1;

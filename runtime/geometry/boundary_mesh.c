@@ -318,7 +318,7 @@ static void consider(const tn_boundary_mesh *mesh, uint32_t triangle, tn_vector 
         *search = (nearest_search){p, d2, triangle, inner};
 }
 
-/* The angle that a triangle fills at a point of it; at one of its edges half a turn, 0 where the point is none of its
+/* The angle that a triangle fills at a point of it; at one of its edges half a turn, 0 if the point is none of its
  * own. */
 static double angle_at(const tn_vector c[3], tn_vector p, double touch)
 {

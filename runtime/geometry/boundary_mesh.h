@@ -17,7 +17,7 @@
 typedef struct tn_boundary_mesh tn_boundary_mesh;
 
 /* Builds from positions [vertex_count][3] and triangles [triangle_count][3]. Triangles without area are left out.
- * TN_INVALID where an index is out of range, a coordinate is not finite or nothing remains. */
+ * TN_INVALID if an index is out of range, a coordinate is not finite or nothing remains. */
 tn_status tn_boundary_mesh_new(const double *positions, size_t vertex_count, const uint32_t *triangles,
                                size_t triangle_count, tn_boundary_mesh **mesh, tn_error *error);
 void tn_boundary_mesh_free(tn_boundary_mesh *mesh);
@@ -41,7 +41,7 @@ bool tn_boundary_mesh_hit(const tn_boundary_mesh *mesh, bool inside, tn_vector x
 double tn_boundary_mesh_distance(const tn_boundary_mesh *mesh, tn_vector x, tn_vector *nearest);
 
 /* A quick answer: is x so deep inside (sign < 0) or so far outside (sign > 0) that nothing within `reach` of it can
- * touch the mesh? False where that is not known without looking closer. */
+ * touch the mesh? False if that is not known without looking closer. */
 bool tn_boundary_mesh_clear(const tn_boundary_mesh *mesh, tn_vector x, double reach, int *sign);
 
 /* The corners of its triangles, three of each; *count: triangles. Borrowed. */

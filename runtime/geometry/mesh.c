@@ -154,7 +154,7 @@ static tn_status find_first(const tn_mesh *mesh, uint32_t *first, tn_error *erro
     return status;
 }
 
-/* Without corners that repeat the one before; false where fewer than three remain. */
+/* Without corners that repeat the one before; false if fewer than three remain. */
 static bool weld_face(tn_mesh *mesh, uint32_t first, uint32_t end, const uint32_t *number, uint32_t *at)
 {
     uint32_t begin = *at;

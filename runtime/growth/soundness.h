@@ -16,7 +16,7 @@ typedef struct tn_measuring {
  *   volume                 between the surface, cut into triangles about the middles of its faces, and the level of its
  *                          lowest vertex
  *   planarity              mean over faces of the largest distance of a corner from the face's plane, over the face's
- *                          size, twice the largest distance of a corner from the middle; 0 where all are plane
+ *                          size, twice the largest distance of a corner from the middle; 0 if all are plane
  *   worst-planarity        the largest of these
  *   edge-spread            standard deviation of the lengths of edges, over their mean
  *   smallest-angle         between two sides of a face at their corner, in degrees

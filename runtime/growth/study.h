@@ -36,7 +36,7 @@ void tn_study_clear(tn_study *study);
  * is open or has edges of more than two faces; how many boundaries there are where there is none. */
 uint32_t tn_study_open_boundary(const tn_study *study, uint32_t from);
 
-/* Of the shapes of its boundary meshes; 0 where it has none. */
+/* Of the shapes of its boundary meshes; 0 if it has none. */
 uint64_t tn_study_meshes_hash(const tn_study *study);
 
 #endif

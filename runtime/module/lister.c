@@ -70,7 +70,7 @@ static void list_flags(tn_lister *lister, const char *words, uint32_t bits)
     }
 }
 
-/* The name that a record has in the field of that name; nothing where it has none. */
+/* The name that a record has in the field of that name; nothing if it has none. */
 static void list_name_of(tn_lister *lister, tn_section section, uint32_t index)
 {
     tn_section_info info = tn_section_describe(section);

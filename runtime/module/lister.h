@@ -12,10 +12,10 @@
 
 typedef struct tn_source_lines tn_source_lines;
 
-tn_source_lines *tn_source_lines_new(const tn_module *module); /* NULL where out of memory */
+tn_source_lines *tn_source_lines_new(const tn_module *module); /* NULL if out of memory */
 void tn_source_lines_free(tn_source_lines *lines);
 
-/* The line (from 0) of a source that holds a byte of it; false where out of memory. */
+/* The line (from 0) of a source that holds a byte of it; false if out of memory. */
 bool tn_source_line(tn_source_lines *lines, uint32_t source, uint32_t offset, size_t *line);
 
 /* Where the text of a line that was found begins. */
@@ -41,7 +41,7 @@ typedef struct tn_lister {
 void tn_list_text(tn_lister *lister, const char *text);
 void tn_list_name(tn_lister *lister, tn_string name);
 
-/* ` "what it is"`, or nothing where there is no text. */
+/* ` "what it is"`, or nothing if there is no text. */
 void tn_list_doc(tn_lister *lister, tn_string doc);
 
 /* Ends a line with where the record comes from. */

@@ -99,7 +99,7 @@ static bool begin_in(const tn_table *table, tn_section_info info, const tn_membe
     return false;
 }
 
-/* Where the code begins of the record, of any section, that holds the offset; false where none does. */
+/* Where the code begins of the record, of any section, that holds the offset; false if none does. */
 static bool code_begin(const tn_module *module, uint32_t offset, uint32_t *begin)
 {
     for (tn_section section = 0; section < TN_SECTION_COUNT; section++) {

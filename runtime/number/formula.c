@@ -26,7 +26,7 @@ void tn_formula_begin(tn_formula *formula)
     *formula = (tn_formula){.code = formula->code, .capacity = formula->capacity};
 }
 
-/* Room for an instruction, with its opcode in place; NULL where out of memory. */
+/* Room for an instruction, with its opcode in place; NULL if out of memory. */
 static uint8_t *append(tn_formula *formula, tn_opcode opcode, size_t size)
 {
     formula->failed = formula->failed || !tn_array_reserve(&formula->code, &formula->capacity, formula->size, size, 1);
@@ -95,7 +95,7 @@ void tn_formula_mesh_distance(tn_formula *formula, uint32_t mesh)
         formula->height -= 2;
 }
 
-/* Puts the operation's value in the place of its operands, the last numbers of the code. False where it has none. */
+/* Puts the operation's value in the place of its operands, the last numbers of the code. False if it has none. */
 static bool fold(tn_formula *formula, tn_opcode opcode, uint32_t arity)
 {
     double operands[TN_ARITY_MAX];

@@ -37,11 +37,11 @@ void tn_formula_keep(tn_formula *formula, uint32_t local);
 void tn_formula_kept(tn_formula *formula, uint32_t local);
 void tn_formula_mesh_distance(tn_formula *formula, uint32_t mesh);
 
-/* Appends once more what stands from `begin` to `end`, the whole code of one number. False where the code would be
+/* Appends once more what stands from `begin` to `end`, the whole code of one number. False if the code would be
  * longer than `most`. */
 bool tn_formula_repeat(tn_formula *formula, size_t begin, size_t end, size_t most);
 
-/* Ends the code: TN_OK, or TN_MEMORY where something before this failed. */
+/* Ends the code: TN_OK, or TN_MEMORY if something before this failed. */
 tn_status tn_formula_end(tn_formula *formula, tn_error *error);
 
 /* The terms that it asks for, of the first 64: bit i is that of term i. It has been ended. */
@@ -65,7 +65,7 @@ bool tn_formula_is_constant(const tn_formula *formula, double *number);
 #define TN_SENTENCE_CODE ((size_t)1 << 24) /* bytes of code that repeating conditions may come to */
 #define TN_SENTENCE_NEST 1000u             /* how deep parentheses may nest */
 
-/* Begins the formula and ends it. A name's term is its index. TN_INVALID with the column (E1242), TN_LIMIT where the
+/* Begins the formula and ends it. A name's term is its index. TN_INVALID with the column (E1242), TN_LIMIT if the
  * sentence nests too deep, TN_MEMORY. */
 tn_status tn_sentence_read(const char *text, size_t size, const char *const *names, size_t name_count,
                            tn_formula *formula, tn_error *error);

@@ -73,7 +73,7 @@ static bool is_wanted(const void *context, uint32_t number)
     return same(&w->shared->nodes[number], w->node);
 }
 
-/* The node that is like this one; false where out of memory. */
+/* The node that is like this one; false if out of memory. */
 static bool enter(tn_shared *s, const node *n, uint32_t *index)
 {
     if (!tn_array_reserve(&s->nodes, &s->node_capacity, s->node_count, 1, sizeof *s->nodes))

@@ -128,7 +128,7 @@ static void find_bounds(const tn_place_rules *rules, tn_traces *traces)
     }
 }
 
-/* Cuts the common box down to what the alternative's first test needs. False where that is nothing in common. */
+/* Cuts the common box down to what the alternative's first test needs. False if that is nothing in common. */
 static bool cut_common(const tn_traces *traces, uint32_t alternative, tn_common *common)
 {
     const tn_trace *trace = &traces->traces[alternative];
@@ -281,7 +281,7 @@ static bool expand(surveyor *s, uint32_t index)
     return true;
 }
 
-/* One step of an alternative. False where it needs a frame that is not known. */
+/* One step of an alternative. False if it needs a frame that is not known. */
 static bool take_step(surveyor *s, uint32_t index)
 {
     const tn_step *step = &s->rules->steps[index];

@@ -124,7 +124,7 @@ typedef struct chunk_part {
     int32_t low[3], last[3];
 } chunk_part;
 
-/* The first chunk of a box; false where it has no cells. */
+/* The first chunk of a box; false if it has no cells. */
 static inline bool first_part(const tn_cell_box *box, chunk_part *part)
 {
     for (int k = 0; k < 3; k++)

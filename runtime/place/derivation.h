@@ -95,7 +95,7 @@ enum { TN_PLACE_ASK_EVERY = 4096 };
 /* Tells how many parts there are, and asks whether to go on. */
 tn_status tn_look_up(const derivation *d);
 
-/* The next step of the topmost alternative that has one; NULL where all are done. */
+/* The next step of the topmost alternative that has one; NULL if all are done. */
 const tn_step *tn_pending_next(const derivation *d, cursor_stack *stack, uint32_t *index, uint32_t *alternative);
 
 tn_status tn_frame_push(derivation *d, frame_stack *stack, const tn_frame *frame);

@@ -80,7 +80,7 @@ static tn_status take_cells(derivation *d, tn_step_kind kind, const tn_cell_box 
 /* ---- looking ahead: does an alternative fit? Each symbol in it is replaced by its last alternative */
 
 /* The frame at hand of a lookahead: one of its own, or the derivation's. `kept` counts the derivation's frames that it
- * did not drop. NULL where the last was dropped. */
+ * did not drop. NULL if the last was dropped. */
 static tn_frame *trial_frame(derivation *d, size_t kept)
 {
     if (d->trial.count > 0)
@@ -88,7 +88,7 @@ static tn_frame *trial_frame(derivation *d, size_t kept)
     return kept > 0 ? &d->frames.items[kept - 1] : NULL;
 }
 
-/* One step of a lookahead on a frame of its own or of the derivation; *fits is set to false where a test fails. A frame
+/* One step of a lookahead on a frame of its own or of the derivation; *fits is set to false if a test fails. A frame
  * of the derivation is copied before it is changed. */
 static tn_status try_step(derivation *d, uint32_t index, uint32_t alternative, size_t *kept, bool *fits)
 {
@@ -193,7 +193,7 @@ static uint32_t first_that_fits(derivation *d, const tn_place_symbol *symbol, co
     return symbol->first + (fits ? next : next - 1);
 }
 
-/* Chooses among alternatives whose lookaheads were worked out. False where they were not, or do not say all here. */
+/* Chooses among alternatives whose lookaheads were worked out. False if they were not, or do not say all here. */
 static bool choose_traced(derivation *d, uint32_t index, uint32_t *chosen)
 {
     const tn_place_symbol *symbol = &d->rules->symbols[index];

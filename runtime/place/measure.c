@@ -315,7 +315,7 @@ static tn_status count_kinds(const tn_module *module, const tn_placed_model *mod
     return TN_OK;
 }
 
-/* The cells of a space; 0 where none is known. */
+/* The cells of a space; 0 if none is known. */
 static tn_status count_inside(const tn_module *module, const tn_kit_model_record *space, tn_watch *watch,
                               uint64_t *inside, tn_error *error)
 {

@@ -12,7 +12,7 @@ typedef struct tn_placed_measures {
     bool *floating, *overlaps; /* [part], owned */
 } tn_placed_measures;
 
-/* space: of the kit's model that was placed; NULL where nothing is known of one, and `fill` is 0 then. Clear it in any
+/* space: of the kit's model that was placed; NULL if nothing is known of one, and `fill` is 0 then. Clear it in any
  * case. */
 tn_status tn_placed_measure(const tn_module *module, const tn_kit_model_record *space, const tn_placed_model *model,
                             tn_watch *watch, tn_placed_measures *measured, tn_error *error);
@@ -35,7 +35,7 @@ typedef struct tn_kit_tally {
     size_t passed, failed;
 } tn_kit_tally;
 
-/* The next condition of a model, from *i on, that does not hold, and *i behind it; NULL where there is none. Of its
+/* The next condition of a model, from *i on, that does not hold, and *i behind it; NULL if there is none. Of its
  * requirements, and where `tests` of the expectations of its tests too; those that were looked at are added to the
  * tally. */
 const tn_kit_condition_record *tn_kit_next_unmet(const tn_module *module, const tn_kit_model_record *model,

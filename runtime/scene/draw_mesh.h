@@ -21,7 +21,7 @@ typedef struct tn_mesh_picture {
     struct tn_watch *watch; /* or NULL */
 } tn_mesh_picture;
 
-/* Draws a mesh of triangles, a closed one unless `open`. E0820 where a vector picture would be too large; otherwise as
+/* Draws a mesh of triangles, a closed one unless `open`. E0820 if a vector picture would be too large; otherwise as
  * tn_canvas_open. */
 tn_status tn_mesh_draw(const tn_mesh *mesh, const tn_mesh_picture *picture, tn_picture *to, tn_error *error);
 

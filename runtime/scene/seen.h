@@ -37,8 +37,7 @@ struct tn_view {
     tn_seen_face *faces; /* the farthest first */
     size_t face_count;
     float (*points)[2]; /* [corner] in the picture's plane, y up */
-    uint16_t
-        *edges; /* [corner] of the edge that starts there: as in tn_display_list; TN_EDGE_NONE where a face was cut */
+    uint16_t *edges; /* [corner] of the edge that starts there: as in tn_display_list; TN_EDGE_NONE if a face was cut */
     float *sharpest; /* [2 * corner] of the seam that starts there, at its ends: the cosine of the sharpest angle
                         between    it and a line, or TN_MEETS_NOTHING; NULL: there are no seams */
     tn_mend *mends;  /* by corner; NULL: there are none */

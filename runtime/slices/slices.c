@@ -414,7 +414,7 @@ static void add_cli_head(tn_text_out *out, const tn_slices_style *style)
     tn_text_add(out, "$$HEADEREND\n$$GEOMETRYSTART\n");
 }
 
-/* Twice the area within a line: above 0 where it runs counter-clockwise. */
+/* Twice the area within a line: above 0 if it runs counter-clockwise. */
 static double turn_of(const tn_slices *slices, uint32_t line)
 {
     uint32_t first = slices->line_first[line], end = slices->line_first[line + 1];

@@ -40,7 +40,7 @@ static inline uint64_t tn_chance_next(tn_chance *chance)
     return tn_random64(chance->seed, chance->stream, chance->index++);
 }
 
-/* Evenly from 0 to bound - 1; 0 where bound is 0. (The bias is under bound / 2^64.) */
+/* Evenly from 0 to bound - 1; 0 if bound is 0. (The bias is under bound / 2^64.) */
 static inline uint64_t tn_chance_below(tn_chance *chance, uint64_t bound)
 {
     return (uint64_t)((__extension__(unsigned __int128) tn_chance_next(chance) * bound) >> 64);

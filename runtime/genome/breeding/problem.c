@@ -138,7 +138,7 @@ static double f1(const tn_fit_wanted *w, const double *values)
     return sum / (double)w->class_count;
 }
 
-/* -log(1 / (1 + exp(-z))), where z is on the right side of 0 where it is positive. */
+/* -log(1 / (1 + exp(-z))), where z is on the right side of 0 if it is positive. */
 static double loss(const tn_fit_wanted *w, const double *values, size_t i)
 {
     double z = w->values[i] == w->classes[1] ? values[i] : -values[i];

@@ -24,14 +24,14 @@ typedef struct tn_fit_wanted {
     tn_fit_error error;
     const double *values; /* borrowed */
     size_t count;
-    double *classes; /* owned: the different values, the smallest first; NULL where the measure has none */
+    double *classes; /* owned: the different values, the smallest first; NULL if the measure has none */
     size_t class_count;
     double variance; /* their sum of squares about their mean */
 } tn_fit_wanted;
 
 #define TN_FIT_CLASSES_MAX 100u
 
-/* like: of the data that the classes are taken from, or NULL: from `values`. E1243 where there are not two classes or
+/* like: of the data that the classes are taken from, or NULL: from `values`. E1243 if there are not two classes or
  * more, of which log loss takes two. */
 tn_status tn_fit_wanted_of(tn_fit_error error, const double *values, size_t count, const tn_fit_wanted *like,
                            tn_fit_wanted *wanted, tn_error *error_out);

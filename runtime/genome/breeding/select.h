@@ -23,7 +23,7 @@ typedef enum tn_selection {
  * index. With one objective, front is 0 and room 0 for all. */
 typedef struct tn_merit {
     const double *objectives;
-    double violation; /* 0 where all that is required is met */
+    double violation; /* 0 if all that is required is met */
     uint32_t front;
     double room;
     uint32_t index;
@@ -62,7 +62,7 @@ typedef struct tn_lexicase {
     unsigned threads;
 } tn_lexicase;
 
-/* TN_LIMIT (E1240) where there are too many errors, TN_MEMORY. Clear it in any case. */
+/* TN_LIMIT (E1240) if there are too many errors, TN_MEMORY. Clear it in any case. */
 tn_status tn_lexicase_new(size_t members, size_t cases, unsigned threads, tn_lexicase *lexicase, tn_error *error);
 void tn_lexicase_clear(tn_lexicase *lexicase);
 

@@ -24,7 +24,7 @@ static bool is_blank(char c)
     return c == ' ' || c == '\t' || c == '\r' || c == ',';
 }
 
-/* Reads the digits at *at; false where there is no number, or one past 64 bits. */
+/* Reads the digits at *at; false if there is no number, or one past 64 bits. */
 static bool read_codon(const char *line, size_t length, size_t *at, uint64_t *codon, bool *too_large)
 {
     size_t begin = *at;
@@ -162,7 +162,7 @@ bool tn_events_straighten(tn_event *events, size_t count, const uint64_t *codons
     return true;
 }
 
-/* Which of the choices of its rule the production is, and of how many; false where it is none at that depth. */
+/* Which of the choices of its rule the production is, and of how many; false if it is none at that depth. */
 static bool find_choice(const tn_grammar *g, uint32_t production, uint32_t depth, uint32_t max_depth, uint32_t *choice,
                         uint32_t *choices)
 {

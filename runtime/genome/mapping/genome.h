@@ -41,7 +41,7 @@ typedef struct tn_spans {
     size_t open_capacity;
 } tn_spans;
 
-/* The subtrees of a recorded mapping that has a phenotype; those of repair are left out. false where out of memory. */
+/* The subtrees of a recorded mapping that has a phenotype; those of repair are left out. false if out of memory. */
 bool tn_spans_find(const tn_mapping *mapping, tn_spans *spans);
 void tn_spans_clear(tn_spans *spans);
 
@@ -56,7 +56,7 @@ bool tn_events_straighten(tn_event *events, size_t count, const uint64_t *codons
 /* Can a codon make its rule choose the production, at that depth? */
 bool tn_can_choose(const tn_grammar *grammar, uint32_t production, uint32_t depth, uint32_t max_depth);
 
-/* A codon, near to `codon`, that makes `rule` at `depth` choose `production`; false where it cannot there, since from
+/* A codon, near to `codon`, that makes `rule` at `depth` choose `production`; false if it cannot there, since from
  * max_depth on only productions without non-terminals are chosen (genr8). */
 bool tn_choice_codon(const tn_grammar *grammar, uint32_t production, uint32_t depth, uint32_t max_depth,
                      uint64_t *codon);

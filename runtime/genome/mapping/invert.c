@@ -146,7 +146,7 @@ static bool is_goal(const void *context, uint32_t number)
     return w->chart->goals[number].rule == w->rule && w->chart->goals[number].begin == w->begin;
 }
 
-/* The number of what is looked for, or the next one. False where out of memory. */
+/* The number of what is looked for, or the next one. False if out of memory. */
 static bool enter(parse_chart *c, tn_hash_table *table, uint64_t hash, tn_hash_same *is, const void *wanted,
                   uint32_t *number)
 {
@@ -350,7 +350,7 @@ static uint32_t production_at(const tn_grammar *g, uint32_t word)
     return low;
 }
 
-/* Records that a rule is finished; false where it was, and not worse. */
+/* Records that a rule is finished; false if it was, and not worse. */
 static bool finish(parse_chart *c, chart_finished f, uint32_t *index)
 {
     bool is_new;
@@ -461,7 +461,7 @@ static bool find_loops(parse_chart *c)
     return true;
 }
 
-/* Parses; the finished record of the start symbol over the whole sentence in *result, TN_CHART_NONE where there is
+/* Parses; the finished record of the start symbol over the whole sentence in *result, TN_CHART_NONE if there is
  * none. */
 static tn_status chart_parse(parse_chart *c, uint32_t *result, tn_error *error)
 {

@@ -68,7 +68,7 @@ typedef struct tn_event {
     uint32_t
         symbol; /* EXPAND, END: rule; TERMINAL: terminal; EDGE: 1 for a new edge type; AGAIN, STOP: rounds so far */
     uint32_t production; /* EXPAND */
-    uint64_t read;       /* how many codons were read before this step's own; TN_NO_READ where it reads none */
+    uint64_t read;       /* how many codons were read before this step's own; TN_NO_READ if it reads none */
     uint64_t codon;
     uint64_t modulus, value; /* value = codon mod modulus */
     size_t text_begin;       /* in the sentence written so far */
@@ -100,11 +100,11 @@ typedef struct tn_mapping {
 
 typedef struct tn_mapper tn_mapper;
 
-/* Borrows the grammar. NULL where out of memory. */
+/* Borrows the grammar. NULL if out of memory. */
 tn_mapper *tn_mapper_new(const tn_grammar *grammar);
 void tn_mapper_free(tn_mapper *mapper);
 
-/* Derives the genome's sentence. TN_OK also where the result is not valid; TN_MEMORY where memory ran out. */
+/* Derives the genome's sentence. TN_OK also where the result is not valid; TN_MEMORY if memory ran out. */
 tn_status tn_mapper_derive(tn_mapper *mapper, const uint64_t *codons, size_t count, const tn_mapping_options *options,
                            tn_mapping *mapping, tn_error *error);
 
@@ -140,7 +140,7 @@ void tn_sentential_reset(tn_sentential *pending);
 /* Takes out the item at `place`, which is below `count`. What is put next stands there. */
 uint32_t tn_sentential_take(tn_sentential *pending, size_t place);
 
-/* Puts an item behind what was put last. false where out of memory. */
+/* Puts an item behind what was put last. false if out of memory. */
 bool tn_sentential_put(tn_sentential *pending, uint32_t item);
 
 #endif

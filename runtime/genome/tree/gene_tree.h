@@ -90,7 +90,7 @@ typedef struct tn_gene_tree {
 
 void tn_gene_tree_clear(tn_gene_tree *tree);
 
-/* Reads a genome; `constants`: how many the table has. TN_INVALID (E1251) where it is no tree. */
+/* Reads a genome; `constants`: how many the table has. TN_INVALID (E1251) if it is no tree. */
 tn_status tn_gene_tree_read(const tn_genome *genome, uint32_t constants, tn_gene_tree *tree, tn_error *error);
 tn_status tn_gene_tree_write(const tn_gene_tree *tree, tn_genome *genome, tn_error *error);
 
@@ -117,7 +117,7 @@ typedef enum tn_pick_order {
 #define TN_PICK_NONE UINT32_MAX
 #define TN_PICK_ANY TN_CLASS_COMMA /* either class */
 
-/* The node taken among those of a class, or TN_PICK_NONE where none can be. */
+/* The node taken among those of a class, or TN_PICK_NONE if none can be. */
 uint32_t tn_pick_node(const tn_gene_tree *tree, tn_pick_order order, double maxprob, tn_gene_class wanted,
                       tn_chance *chance);
 

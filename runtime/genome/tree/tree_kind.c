@@ -311,7 +311,7 @@ static bool nudge(tn_gene_tree *tree, tn_chance *chance)
 
 /* ---- mutation */
 
-/* The kind of mutation, by its share; TN_TREE_MUTATION_COUNT where all shares are 0. */
+/* The kind of mutation, by its share; TN_TREE_MUTATION_COUNT if all shares are 0. */
 static tn_tree_mutation draw_kind(const tn_tree_variation *how, tn_chance *chance)
 {
     double total = 0;

@@ -27,7 +27,7 @@ typedef struct tn_tree_variation {
 } tn_tree_variation;
 
 /* Exchanges a subtree of each parent for one of the same class. weights: by which maxprob is multiplied for each
- * parent. *crossed[i] is false where child i is a copy of its parent: where nothing can be exchanged, and where all
+ * parent. *crossed[i] is false if child i is a copy of its parent: where nothing can be exchanged, and where all
  * attempts gave a child that is too large. */
 tn_status tn_tree_cross(const tn_tree_variation *how, tn_chance *chance, const tn_gene_tree parents[2],
                         const double weights[2], tn_gene_tree children[2], bool crossed[2], tn_error *error);

@@ -308,7 +308,7 @@ static uint32_t side_between(const tn_scene *scene, uint32_t face, uint32_t from
     return TN_CUT;
 }
 
-/* The plane of a triangle, its normal towards the eye; false where it has no area. */
+/* The plane of a triangle, its normal towards the eye; false if it has no area. */
 static bool plane_of(const tn_scene *scene, const tn_seen_triangle *t, double plane[4])
 {
     const double *p = scene->points[t->corner[0]], *q = scene->points[t->corner[1]], *r = scene->points[t->corner[2]];

@@ -36,7 +36,7 @@ typedef struct tn_painting {
     size_t patch_count, patch_room;
     double (*points)[3]; /* corners of pieces */
     uint32_t *sides;     /* [corner of pieces] the corner of the scene where the side of the face starts that leaves the
-                            corner, or TN_CUT where the face was cut */
+                            corner, or TN_CUT if the face was cut */
     size_t corner_count, corner_room;
     uint32_t by_depth; /* faces painted by their depth, since cutting them would take too many pieces */
 } tn_painting;

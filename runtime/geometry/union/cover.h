@@ -16,7 +16,7 @@ typedef struct tn_cover {
     double low[2], high[2]; /* its bounds */
 } tn_cover;
 
-/* The hull of points, and its bounds; count is at most TN_COVER_CORNERS. False where out of memory. */
+/* The hull of points, and its bounds; count is at most TN_COVER_CORNERS. False if out of memory. */
 bool tn_cover_of(const double (*points)[2], size_t count, tn_cover *cover);
 
 /* As a box of no height. */

@@ -369,7 +369,7 @@ static void add_triangle(outline *o, uint32_t cell, bool turn, uint32_t a, uint3
     o->cells[o->triangle_count++] = cell;
 }
 
-/* False where no ear with area is left, though corners are. */
+/* False if no ear with area is left, though corners are. */
 static bool cut_ears(outline *o, const tn_ring *ring)
 {
     bool turn = ring->face != TN_CUT_BOX_CAP && ring->face % 2 == 0;

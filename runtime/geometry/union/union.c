@@ -209,7 +209,7 @@ static bool is_shared(separating *s, const edge *edges, size_t count)
     return false;
 }
 
-/* False where the edge is too short to have a middle. */
+/* False if the edge is too short to have a middle. */
 static bool split(tn_grid *grid, uint32_t low, uint32_t high)
 {
     const int64_t *p = grid->vertices[low].at, *q = grid->vertices[high].at;

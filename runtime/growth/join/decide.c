@@ -328,7 +328,7 @@ static bool decide_alone(const decision *d, uint32_t face, tn_pair_set *taken)
     return cut->waiting_count == 0 || keep_pending(decider, &decider->cuts, cut, face);
 }
 
-/* The darts of a face that no branch is in; 0 where there is one. */
+/* The darts of a face that no branch is in; 0 if there is one. */
 static uint64_t plain_darts(const tn_pass *pass, uint32_t face)
 {
     uint64_t darts = 0;

@@ -78,7 +78,7 @@ static walker walk_around(uint32_t face, const tn_loop_branch *branch)
     return (walker){branch->corner, branch->corner, face};
 }
 
-/* To the next dart of the vertex; false where that is the first. */
+/* To the next dart of the vertex; false if that is the first. */
 static bool turn(const tn_pass *pass, walker *at)
 {
     const tn_map *old = pass->old;

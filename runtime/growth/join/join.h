@@ -97,11 +97,11 @@ static inline double tn_branch_reach(const tn_growth *growth)
     return multiples >= 0 ? multiples * growth->length * (1 + 1e-9) : INFINITY;
 }
 
-/* TN_JOIN_FAILURE_COUNT where they lie so that they may join; then their distance, quantised. */
+/* TN_JOIN_FAILURE_COUNT if they lie so that they may join; then their distance, quantised. */
 tn_join_failure tn_branches_measure(const tn_growth *growth, tn_vector a_direction, tn_vector a_at,
                                     tn_vector b_direction, tn_vector b_at, double *distance);
 
-/* How far two branches of one label at different vertices come: TN_JOIN_FAILURE_COUNT where nothing but the topology
+/* How far two branches of one label at different vertices come: TN_JOIN_FAILURE_COUNT if nothing but the topology
  * could stand against it. */
 tn_join_failure tn_branches_compare(const tn_growth *growth, const tn_loop_branch *a, const tn_loop_branch *b,
                                     double *distance);

@@ -111,7 +111,7 @@ typedef struct table {
     uint32_t first, size; /* darts of the face */
 } table;
 
-/* The pieces that a dart's edge became; 0 where it is kept. */
+/* The pieces that a dart's edge became; 0 if it is kept. */
 static uint32_t pieces_of(const table *face, uint32_t dart)
 {
     const tn_record *record = &face->pass->records[face->pass->old->side[face->first + dart] / 2];
@@ -313,7 +313,7 @@ static bool is_wanted(const void *context, uint32_t number)
     return one->size == w->size && same_codes(one->codes, w->codes, w->size);
 }
 
-/* The branches that lie in such a face, as its loop meets them; false where it is unusual. */
+/* The branches that lie in such a face, as its loop meets them; false if it is unusual. */
 static bool list_branches(const tn_pass *pass, const tn_pattern *pattern, pattern_branch *list, uint32_t *count)
 {
     *count = 0;
@@ -388,7 +388,7 @@ static void add_pairs(const tn_pass *pass, tn_pattern *pattern)
     }
 }
 
-/* The face's pattern; NULL where there are too many. The first of its kind is added. False: out of memory. */
+/* The face's pattern; NULL if there are too many. The first of its kind is added. False: out of memory. */
 static bool find_pattern(tn_patterns *patterns, const view *seen, tn_pattern **found)
 {
     *found = NULL;
@@ -449,7 +449,7 @@ static inline bool oppose(const view *seen, const pattern_pair *pair)
     return tn_branches_oppose(seen->pass->growth, exact_direction(seen, &pair->a), exact_direction(seen, &pair->b));
 }
 
-/* The pairs whose directions are opposed, a bit each, and those that they exclude; false where another face might join
+/* The pairs whose directions are opposed, a bit each, and those that they exclude; false if another face might join
  * the same vertices, so that this one has to be worked out by itself. */
 static bool find_opposed(const tn_pattern *pattern, const view *seen, uint32_t *opposed, uint32_t *excluded)
 {
@@ -491,7 +491,7 @@ static bool comes_before(const candidate *a, const candidate *b)
     return a->low != b->low ? a->low < b->low : a->high < b->high;
 }
 
-/* The key of opposed pairs in their order; false where they are too many. */
+/* The key of opposed pairs in their order; false if they are too many. */
 static bool order(const tn_pattern *pattern, const view *seen, uint32_t opposed, uint64_t *key)
 {
     candidate list[CANDIDATES], one;

@@ -126,7 +126,7 @@ void tn_patterns_clear(tn_patterns *patterns);
 void tn_patterns_forget(tn_patterns *patterns);
 
 /* How an interior face is cut: the index of one of patterns->cuts, its branches that joined noted in pass->joints;
- * TN_NONE where the face has to be worked out by itself. `loop` is used in between. False: out of memory. */
+ * TN_NONE if the face has to be worked out by itself. `loop` is used in between. False: out of memory. */
 bool tn_patterns_decide(tn_patterns *patterns, const tn_pass *pass, uint32_t face, tn_loop *loop, uint32_t *cut);
 
 #endif

@@ -104,7 +104,7 @@ typedef struct tn_growth_system {
 } tn_growth_system;
 
 /* The growth system of a verified module, in memory of its own that borrows the module's strings and code. TN_INVALID
- * where the module has none. The module has to outlive it. */
+ * if the module has none. The module has to outlive it. */
 tn_status tn_growth_system_read(const tn_module *module, tn_growth_system **system, tn_error *error);
 void tn_growth_system_free(tn_growth_system *system);
 

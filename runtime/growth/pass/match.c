@@ -268,7 +268,7 @@ static tn_status number_draws(tn_pass *pass, uint32_t chunks, uint64_t **ordinal
     return TN_OK;
 }
 
-/* The template of every edge of a label, where neither context, age nor chance has a say; false where one has. */
+/* The template of every edge of a label, where neither context, age nor chance has a say; false if one has. */
 static bool find_plain(tn_pass *pass)
 {
     const tn_growth_system *system = pass->growth->system;
@@ -312,7 +312,7 @@ typedef struct chain_search {
     size_t capacity;  /* of the list */
 } chain_search;
 
-/* The edge that leaves `vertex` (which two edges share), or TN_NONE where it arrives there. */
+/* The edge that leaves `vertex` (which two edges share), or TN_NONE if it arrives there. */
 static uint32_t next_in_chain(const tn_pass *pass, uint32_t edge)
 {
     const tn_map *map = pass->old;

@@ -149,8 +149,8 @@ typedef struct tn_pass {
     uint32_t *dart;      /* [2 edge + against]; only where `walks_vertices` */
     bool walks_vertices; /* joining may ask who is around a vertex */
     /* match */
-    const uint16_t *template_of; /* [label] template or TN_NO_TEMPLATE, where labels alone decide; otherwise NULL */
-    uint16_t *choice;            /* [edge] the same, where they do not and no chains are replaced */
+    const uint16_t *template_of;      /* [label] template or TN_NO_TEMPLATE, if labels alone decide; otherwise NULL */
+    uint16_t *choice;                 /* [edge] the same, where they do not and no chains are replaced */
     struct tn_edge_replacement *list; /* where chains are replaced: all replacements, in order; otherwise NULL */
     size_t list_count;
     /* rewrite */
@@ -178,7 +178,7 @@ static inline tn_crew *tn_pass_crew(const tn_pass *pass)
     return pass->growth->crew;
 }
 
-/* The template that replaces an edge, or TN_NO_TEMPLATE, where no chains are replaced. */
+/* The template that replaces an edge, or TN_NO_TEMPLATE, if no chains are replaced. */
 static inline uint16_t tn_choice(const tn_pass *pass, uint32_t edge)
 {
     if (!pass->template_of)
@@ -221,7 +221,7 @@ tn_status tn_pass_stamp(tn_pass *pass, tn_error *error);
 tn_status tn_pass_faces(tn_pass *pass, tn_error *error);
 tn_status tn_pass_number_joints(const tn_pass *pass, tn_error *error);
 
-/* TN_LIMIT where a step makes more edges than the options allow. */
+/* TN_LIMIT if a step makes more edges than the options allow. */
 tn_status tn_growth_check_edges(const tn_growth *growth, uint64_t edges, tn_error *error);
 tn_status tn_growth_displace(tn_growth *growth, tn_error *error);
 

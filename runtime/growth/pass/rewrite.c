@@ -173,7 +173,7 @@ static void place(const tn_pass *pass, waiting *edges, placing *some)
     edges->count = 0;
 }
 
-/* False where a coordinate left its range. */
+/* False if a coordinate left its range. */
 static bool place_all(const tn_pass *pass, placing *some)
 {
     for (uint32_t w = 0; w < WAITING; w++)
@@ -226,7 +226,7 @@ static bool ages_stay_in_range(const tn_template *template, int32_t age)
 }
 
 /* Replaces the edges first .. last, of which `first` gets the record; `at` holds the numbers that come next. False
- * where an age leaves its range. */
+ * if an age leaves its range. */
 static inline bool replace(tn_pass *pass, uint32_t first, uint32_t last, uint16_t chosen, tn_rewrite_tally *at,
                            placing *some)
 {

@@ -286,7 +286,7 @@ static tn_status visit_sets(const tn_lattice *l, const uint8_t *forbidden, uint3
     return status;
 }
 
-/* The sets of so many slots that hang together and are allowed: [slot], 0 where it is. */
+/* The sets of so many slots that hang together and are allowed: [slot], 0 if it is. */
 static tn_status count_allowed(const tn_lattice *l, const uint8_t *forbidden, uint32_t parts, unsigned threads,
                                tn_watch *watch, uint64_t *count, tn_error *error)
 {

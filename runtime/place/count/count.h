@@ -20,7 +20,7 @@ tn_status tn_count_buildings(const tn_place_rules *rules, const bool *wanted, ui
                              unsigned threads, tn_watch *watch, tn_building_counts *counts, tn_error *error);
 
 /* Counts the sets of `parts` parts that hang together, each where it stands, inside of the space of the rules' model:
- * on the lattice of what the model's rule places first where it starts. E1338 where it places none of the wanted parts
+ * on the lattice of what the model's rule places first where it starts. E1338 if it places none of the wanted parts
  * there. Otherwise as above. */
 tn_status tn_count_inside(const tn_place_rules *rules, const bool *wanted, uint32_t parts, unsigned threads,
                           tn_watch *watch, uint64_t *count, tn_error *error);

@@ -107,7 +107,7 @@ static inline tn_cell_box tn_cell_box_at(const tn_cell_box box[TN_UPRIGHT_TURNS]
     return moved;
 }
 
-/* Moves, turns or colours the frame. False where it would go farther than TN_PLACE_FAR. */
+/* Moves, turns or colours the frame. False if it would go farther than TN_PLACE_FAR. */
 bool tn_frame_step(tn_frame *frame, const tn_step *step);
 
 /* The cells of FILL, FILL_OVER, BLOCK and TOUCH at a frame. */
