@@ -153,7 +153,7 @@ typedef struct tn_bnf_grammar {
     size_t names_size;
 } tn_bnf_grammar;
 
-/* Lists the rules that were read (bnf.c). False if out of memory. */
+/* Lists the rules that were read (compile.c). False if out of memory. */
 bool tn_bnf_collect_rules(tn_bnf_grammar *grammar);
 
 /* Makes every alternative's pieces into terminals and drops the empty ones (bnf_terminals.c). */

@@ -156,7 +156,7 @@ static void failed(tn_kit *kit, const tn_kit_node *node, tn_status status, const
                            : "name a part file of an LDraw library, or tell the part by `fill` and its connectors");
 }
 
-/* Parts of an LDraw library (part_file.c): reads the file that a part names, and takes its studs, tubes and, where
+/* Parts of an LDraw library: reads the file that a part names, and takes its studs, tubes and, where
  * `body`, its size. */
 static void kit_read_part(tn_kit *kit, const tn_kit_node *node, tn_part_file *file)
 {

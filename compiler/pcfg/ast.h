@@ -136,7 +136,7 @@ typedef struct tn_pcfg_grammar {
 /* Puts the rules together and checks them. Out of memory is the arena's to remember. */
 void tn_pcfg_check(tn_pcfg_grammar *grammar, const tn_pcfg_file *file);
 
-/* Warns about what is allowed but probably wrong, in a grammar without errors (warn.c). */
+/* Warns about what is allowed but probably wrong, in a grammar without errors. */
 void tn_pcfg_warn(const tn_pcfg_grammar *grammar);
 
 /* The symbol that an item names. */
