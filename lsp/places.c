@@ -9,7 +9,7 @@
 #include "driver/house/survey.h"
 #include "lsp/facts.h"
 #include "runtime/base/array.h"
-#include "runtime/base/length_style.h"
+#include "runtime/base/length.h"
 #include "runtime/house/solids.h"
 #include "runtime/plan/measure/amount.h"
 

@@ -8,7 +8,7 @@
 
 #include "driver/grammar/grammar_report.h"
 #include "driver/plan/analysis.h"
-#include "runtime/base/clock.h"
+#include "runtime/base/watch.h"
 #include "runtime/load.h"
 
 /* ---- in a thread of its own */

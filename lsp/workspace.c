@@ -10,7 +10,6 @@
 
 #include "compiler/common/lexical.h"
 #include "compiler/compile.h"
-#include "compiler/notation.h"
 #include "driver/open/open.h"
 #include "lsp/facts.h"
 #include "runtime/base/array.h"

@@ -6,8 +6,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "compiler/common/text_lines.h"
-#include "compiler/notation.h"
+#include "compiler/common/source.h"
+#include "compiler/compile.h"
 #include "driver/open/served.h"
 #include "lsp/index.h"
 #include "runtime/plan/library/memory.h"

@@ -19,7 +19,7 @@
 #include "cli/common/job.h"
 #include "cli/common/program.h"
 #include "cli/studio/studio.h"
-#include "runtime/base/file_error.h"
+#include "runtime/base/file.h"
 #include "studio/server/server.h"
 
 extern char **environ;

@@ -8,8 +8,8 @@
 
 #include "runtime/base/array.h"
 #include "runtime/growth/faults.h"
+#include "runtime/growth/growth.h"
 #include "runtime/growth/soundness.h"
-#include "runtime/growth/surface.h"
 
 /* ---- how a surface grows: options and surroundings, from a module and from the caller */
 

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "driver/place/kit.h"
-#include "runtime/place/count/list.h"
+#include "runtime/place/count/count.h"
 #include "runtime/place/joints.h"
 #include "runtime/place/write.h"
 

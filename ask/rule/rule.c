@@ -8,7 +8,7 @@
 #include "ask/session/made.h"
 #include "ask/session/questions.h"
 #include "ask/source/check.h"
-#include "compiler/notation.h"
+#include "compiler/compile.h"
 #include "compiler/plan/edit/rule_edit.h"
 #include "compiler/plan/syntax/program.h"
 #include "driver/rule/tray_fields.h"

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "compiler/notation.h"
+#include "compiler/compile.h"
 
 /* ---- manual pages */
 

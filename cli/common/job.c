@@ -11,7 +11,7 @@
 #include "ask/session/questions.h"
 #include "cli/common/interrupt.h"
 #include "runtime/base/array.h"
-#include "runtime/base/clock.h"
+#include "runtime/base/watch.h"
 #include "runtime/ranks/ranks.h"
 
 /* ---- --watch: a command is run again whenever a file that it has read changes */

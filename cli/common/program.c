@@ -62,8 +62,6 @@ static void pipes_announce(const tn_settings *settings)
 #include <string.h>
 #include <unistd.h>
 
-#include "runtime/base/utf8.h"
-
 /* The first bytes of a character whose others are in the next write. */
 typedef struct half_character {
     char bytes[4];

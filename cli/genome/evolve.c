@@ -10,9 +10,9 @@
 #include "cli/common/interrupt.h"
 #include "cli/common/progress.h"
 #include "driver/ponyge/ponyge.h"
-#include "runtime/base/clock.h"
 #include "runtime/base/file.h"
 #include "runtime/base/utf8.h"
+#include "runtime/base/watch.h"
 
 /* ---- opens the study of a run, for `evolve` and `breed` */
 

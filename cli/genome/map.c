@@ -9,7 +9,7 @@
 #include "cli/common/interrupt.h"
 #include "cli/common/job.h"
 #include "cli/common/options.h"
-#include "runtime/base/file_error.h"
+#include "runtime/base/file.h"
 #include "runtime/base/picture.h"
 #include "runtime/genome/mapping/genome.h"
 

@@ -11,7 +11,6 @@
 #include "cli/common/options.h"
 #include "runtime/base/bytes.h"
 #include "runtime/base/file.h"
-#include "runtime/base/file_error.h"
 
 /* ---- evaluates a field at the places that the lines of a file name */
 

@@ -14,7 +14,7 @@
 #include "driver/shards/record.h"
 #include "driver/shards/run.h"
 #include "runtime/base/crew.h"
-#include "runtime/base/file_error.h"
+#include "runtime/base/file.h"
 #include "runtime/base/utf8.h"
 
 #define SHOWN_MOST 10u       /* claims, and wrong shards */

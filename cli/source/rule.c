@@ -7,7 +7,7 @@
 #include "cli/common/job.h"
 #include "cli/common/options.h"
 #include "compiler/common/lexical.h"
-#include "compiler/common/text_lines.h"
+#include "compiler/common/source.h"
 
 typedef struct rule_settings {
     tn_settings common;

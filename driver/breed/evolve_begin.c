@@ -16,7 +16,7 @@
 #include "driver/breed/evolve.h"
 #include "driver/breed/inputs.h"
 #include "runtime/base/file.h"
-#include "runtime/numeric/numeric.h"
+#include "runtime/math/elementary.h"
 
 /* ---- first generations with few different sentences, or with none that names a column; data without names */
 

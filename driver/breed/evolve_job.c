@@ -12,7 +12,6 @@
 #include "runtime/base/array.h"
 #include "runtime/base/crew.h"
 #include "runtime/base/file.h"
-#include "runtime/base/file_error.h"
 
 static tn_status evolution_forms(tn_evolution_job *job, const char *path, const tn_evolution_job_options *options,
                                  tn_error *error);

@@ -16,7 +16,7 @@
 #include "runtime/base/file.h"
 #include "runtime/genome/mapping/sentences.h"
 #include "runtime/genome/store/run_store.h"
-#include "runtime/numeric/numeric.h"
+#include "runtime/math/elementary.h"
 #include "runtime/plan/text/text.h"
 #include "runtime/ranks/ranks.h"
 

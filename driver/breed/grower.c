@@ -10,11 +10,11 @@
 #include "driver/breed/change.h"
 #include "driver/breed/goals.h"
 #include "driver/breed/inputs.h"
-#include "runtime/growth/environment/surroundings.h"
+#include "runtime/growth/environment/environment.h"
+#include "runtime/growth/growth.h"
 #include "runtime/growth/picture/draw.h"
 #include "runtime/growth/soundness.h"
 #include "runtime/growth/study.h"
-#include "runtime/growth/surface.h"
 #include "runtime/mesh/openmesh.h"
 #include "runtime/number/run.h"
 

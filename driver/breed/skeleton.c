@@ -13,7 +13,7 @@
 #include "runtime/base/buffer.h"
 #include "runtime/base/bytes.h"
 #include "runtime/base/file.h"
-#include "runtime/numeric/numeric.h"
+#include "runtime/math/elementary.h"
 
 #define DEGREES 57.29577951308232
 

@@ -7,7 +7,7 @@
 
 #include "driver/open/open.h"
 #include "runtime/base/array.h"
-#include "runtime/base/length_style.h"
+#include "runtime/base/length.h"
 
 /* ---- offering */
 

@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "compiler/common/source.h"
-#include "compiler/notation.h"
+#include "compiler/compile.h"
 #include "driver/open/missing.h"
 #include "runtime/base/file.h"
 

@@ -9,7 +9,7 @@
 
 #include <pthread.h>
 
-#include "compiler/common/resolver.h"
+#include "compiler/common/compilation.h"
 #include "driver/open/stdlib.h"
 #include "runtime/base/error.h"
 

@@ -3,7 +3,7 @@
 #ifndef TARTAN_DRIVER_OPEN_MISSING_H
 #define TARTAN_DRIVER_OPEN_MISSING_H
 
-#include "compiler/common/resolver.h"
+#include "compiler/common/compilation.h"
 #include "driver/open/stdlib.h"
 #include "runtime/base/error.h"
 
@@ -21,7 +21,7 @@ bool tn_path_exists(const char *path);
 char *tn_path_join(const char *folder, const char *name, const char *extension);
 char *tn_path_beside(const char *user, const char *path, const char *extension);
 
-/* Fills the error (E0101) for a request that leads to no file, and returns its status. `meant` (resolver.h) is
+/* Fills the error (E0101) for a request that leads to no file, and returns its status. `meant` (compilation.h) is
  * given the path that was likely meant, where there is one. */
 tn_status tn_missing(const tn_stdlib_dirs *dirs, const tn_request *request, char *meant, tn_error *error);
 

@@ -6,8 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "compiler/common/compilation.h"
 #include "compiler/common/import.h"
-#include "compiler/common/ldraw_library.h"
 #include "driver/open/files.h"
 #include "driver/open/missing.h"
 #include "driver/open/stdlib.h"

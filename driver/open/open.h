@@ -7,7 +7,7 @@
 #ifndef TARTAN_DRIVER_OPEN_OPEN_H
 #define TARTAN_DRIVER_OPEN_OPEN_H
 
-#include "compiler/common/resolver.h"
+#include "compiler/common/compilation.h"
 #include "compiler/compile.h"
 #include "runtime/module/module.h"
 

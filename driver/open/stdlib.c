@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "compiler/common/import.h"
-#include "compiler/notation.h"
+#include "compiler/compile.h"
 #include "runtime/base/array.h"
 #include "runtime/base/nearest.h"
 

@@ -2,7 +2,7 @@
 #ifndef TARTAN_DRIVER_OPEN_STDLIB_H
 #define TARTAN_DRIVER_OPEN_STDLIB_H
 
-#include "compiler/common/resolver.h"
+#include "compiler/common/compilation.h"
 #include "runtime/base/error.h"
 
 /* Where `use "name"` looks: the folders of $TARTAN_PATH (separated by colons), `stdlib` beside the executable (the

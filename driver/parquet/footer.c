@@ -9,7 +9,7 @@
 #include "driver/parquet/writer.h"
 #include "runtime/base/array.h"
 #include "runtime/base/bytes.h"
-#include "runtime/base/file_error.h"
+#include "runtime/base/file.h"
 
 /* ---- reading */
 

@@ -8,7 +8,7 @@
 #include "driver/parquet/encoding.h"
 #include "runtime/base/array.h"
 #include "runtime/base/bytes.h"
-#include "runtime/base/file_error.h"
+#include "runtime/base/file.h"
 #include "runtime/base/integers.h"
 
 static void plain_write(tn_buffer *out, int64_t value, unsigned bytes);

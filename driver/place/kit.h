@@ -6,8 +6,8 @@
 #include <stdio.h>
 
 #include "driver/open/open.h"
-#include "runtime/place/conditions.h"
 #include "runtime/place/grow.h"
+#include "runtime/place/measure.h"
 
 /* Places the model of an opened connection grammar; what goes wrong is told at its place in the grammar, with what is
  * in the way. */

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/base/length_style.h"
+#include "runtime/base/length.h"
 #include "runtime/plan/measure/amount.h"
 #include "runtime/plan/picture/draw_explain.h"
 #include "runtime/plan/schema/sum.h"

@@ -20,10 +20,10 @@
 
 #include "driver/program/keeper.h"
 #include "runtime/base/array.h"
-#include "runtime/base/clock.h"
 #include "runtime/base/error.h"
-#include "runtime/base/file_error.h"
+#include "runtime/base/file.h"
 #include "runtime/base/utf8.h"
+#include "runtime/base/watch.h"
 
 #define TN_ANSWER_BYTES 65536u /* the longest line that is an answer */
 

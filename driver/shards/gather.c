@@ -11,7 +11,6 @@
 #include "driver/plan/provenance.h"
 #include "driver/shards/record.h"
 #include "runtime/base/file.h"
-#include "runtime/base/file_error.h"
 #include "runtime/plan/store/sqlite.h"
 
 /* ---- looks a shard set over */

@@ -12,7 +12,7 @@
 #include "driver/shards/record.h"
 #include "driver/zstd/zstd.h"
 #include "runtime/base/array.h"
-#include "runtime/base/file_error.h"
+#include "runtime/base/file.h"
 #include "runtime/base/utf8.h"
 #include "runtime/plan/store/sqlite.h"
 

@@ -17,12 +17,11 @@
 #include "driver/shards/hash.h"
 #include "driver/shards/inputs.h"
 #include "driver/shards/record.h"
-#include "runtime/base/clock.h"
 #include "runtime/base/crew.h"
 #include "runtime/base/file.h"
-#include "runtime/base/file_error.h"
 #include "runtime/base/integers.h"
 #include "runtime/base/json.h"
+#include "runtime/base/watch.h"
 
 /* ---- claims */
 

@@ -8,7 +8,7 @@
 #define TARTAN_HOUSE_HOUSE_H
 
 #include "runtime/base/int128.h"
-#include "runtime/base/length_style.h"
+#include "runtime/base/length.h"
 #include "runtime/house/form/form.h"
 #include "runtime/module/code.h"
 #include "runtime/plan/text/text.h"

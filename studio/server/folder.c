@@ -16,10 +16,10 @@
 #include <unistd.h>
 #include <xxhash.h>
 
-#include "compiler/notation.h"
+#include "compiler/compile.h"
 #include "lsp/workspace.h"
 #include "runtime/base/array.h"
-#include "runtime/base/file_error.h"
+#include "runtime/base/file.h"
 #include "runtime/base/utf8.h"
 
 struct tn_studio_folder {

@@ -10,7 +10,7 @@
 #include "include/tartan/base.h"
 #include "lsp/exchange.h"
 #include "lsp/review.h"
-#include "runtime/base/clock.h"
+#include "runtime/base/watch.h"
 #include "studio/desk/desk.h"
 #include "studio/server/file_requests.h"
 #include "studio/server/folder.h"

@@ -8,10 +8,10 @@
 
 #include "runtime/geometry/write.h"
 #include "runtime/growth/faults.h"
+#include "runtime/growth/growth.h"
 #include "runtime/growth/picture/draw.h"
 #include "runtime/growth/stats.h"
 #include "runtime/growth/study.h"
-#include "runtime/growth/surface.h"
 #include "runtime/mesh/openmesh.h"
 
 enum { GROW_STEPS = 4, GROW_EDGES = 60, GROW_CODE = 6000 };

@@ -14,8 +14,18 @@
 #define TARTAN_GROWTH_SYSTEM_H
 
 #include "runtime/base/error.h"
-#include "runtime/growth/model/records.h"
 #include "runtime/module/module.h"
+#include "runtime/module/values.h"
+
+/* How much a module's growth sections may hold beyond what records.def says of each field. */
+
+#define TN_NO_LABEL TN_NO_RECORD
+#define TN_LABELS_MAX 32767u       /* labels of one system: a label is 15 bits of an edge's state */
+#define TN_TEMPLATES_MAX 65000u    /* successors of one system: 16 bits of what replaces an edge */
+#define TN_AXIOM_MAX 100000u       /* edges of a seed */
+#define TN_SURROUNDINGS_MAX 10000u /* forces, and boundaries, of one environment */
+
+#define TN_EXPRESSIONS_MAX 64u /* named fitness expressions of one study */
 
 typedef struct tn_template_segment {
     uint32_t label; /* index into the system's labels */
@@ -94,7 +104,7 @@ typedef struct tn_growth_system {
 } tn_growth_system;
 
 /* The growth system of a verified module, in memory of its own that borrows the module's strings and code. TN_INVALID
- * where the module has none. The module has to outlive it. */
+ * if the module has none. The module has to outlive it. */
 tn_status tn_growth_system_read(const tn_module *module, tn_growth_system **system, tn_error *error);
 void tn_growth_system_free(tn_growth_system *system);
 

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "runtime/numeric/numeric.h"
+#include "runtime/math/elementary.h"
 
 static tn_vector combine(tn_vector a, double s, tn_vector b, double t)
 {

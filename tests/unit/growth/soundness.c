@@ -13,9 +13,9 @@
 
 #include "runtime/base/random.h"
 #include "runtime/geometry/crossing.h"
+#include "runtime/growth/growth.h"
 #include "runtime/growth/soundness.h"
 #include "runtime/growth/study.h"
-#include "runtime/growth/surface.h"
 #include "runtime/load.h"
 #include "tests/support/compile_file.h"
 
