@@ -292,7 +292,8 @@ static void complete_library(tn_lsp_cursor *c)
 static void complete_schema(tn_lsp_cursor *c)
 {
     bool role = c->count > 0 && tn_cursor_is(c, c->count - 1, "role");
-    tn_offer_words(c, role ? TN_AT(ROLE) : TN_AT(SCHEMA) | TN_AT(FIELD));
+    bool limit = tn_cursor_is(c, c->clause, "only") || tn_cursor_is(c, c->clause, "forbid");
+    tn_offer_words(c, role ? TN_AT(ROLE) : TN_AT(SCHEMA) | TN_AT(FIELD) | (limit ? TN_AT(LIMIT) : 0));
 }
 
 static void complete_test(tn_lsp_cursor *c)
