@@ -61,7 +61,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token USE "`use`" SCHEMA "`schema`" RULE "`rule`" LIBRARY "`library`" TEST "`test`"
 %token USING "`using`" FROM "`from`" ALLOW "`allow`" AS "`as`" BY "`by`" TO "`to`" OF "`of`"
 %token ZONE "`zone`" FLAG "`flag`" FORBID "`forbid`" ONLY "`only`" ROLE "`role`"
-%token TRAYS "`trays`" TOTAL "`total`" REQUIRE "`require`" PRUNE "`prune`" WEIGHT "`weight`" PREFER "`prefer`" WORTH "`worth`"
+%token TRAYS "`trays`" TOTAL "`total`" REQUIRE "`require`" PRUNE "`prune`" GENERATE "`generate`" WEIGHT "`weight`" PREFER "`prefer`" WORTH "`worth`"
 %token TODO "`todo`" MATCH "`match`" REJECT "`reject`" KEEP "`keep`" DROP "`drop`"
 %token TRAY "`tray`" ANY "`any`" AND "`and`" OR "`or`" NOT "`not`"
 %token NEIGHBOUR "`neighbour`" SYMMETRIC "`symmetric`" QUANTITY "`quantity`" SUM "`sum`" MANY "`many`"
@@ -111,7 +111,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <expr> material_where
 %type <expr> cells cell_ors cell_and cell_ands cell_not sections section_ors section_and section_ands section_not
 %type <expr> expression implied qualified disjunction ors and ands not compared comparable nearness additive term signed primary pattern_tray head_number
-%type <expr> part tray_sum tray_term tray_signed tray_atom
+%type <expr> part call_arg tray_sum tray_term tray_signed tray_atom
 %type <list> params number_cases pattern call_args
 %type <node> number_item number_case setting
 %type <list> param_words with settings
@@ -523,8 +523,15 @@ head_number
     ;
 
 call_args
-    : expression                                { $$ = tn_ast_one($1); }
-    | call_args COMMA expression                { $$ = tn_ast_append($1, $3); }
+    : call_arg                                  { $$ = tn_ast_one($1); }
+    | call_args COMMA call_arg                  { $$ = tn_ast_append($1, $3); }
+    ;
+
+/* A range is one of `repeat`: how often. */
+call_arg
+    : expression
+    | additive DOTS additive                    { $$ = tn_ast_range_of(parse, @$, $1, $3); }
+    | additive DOTS                             { $$ = tn_ast_range_of(parse, @$, $1, NULL); }
     ;
 
 pattern
@@ -667,6 +674,7 @@ clause
                                                 { $$ = tn_ast_one(tn_ast_total_compare(parse, @$, $2, $3, $4, $5)); }
     | require_word requires                     { $$ = $2; }
     | prune_word prunes                         { $$ = $2; }
+    | generate_word require                     { $$ = tn_ast_one(tn_ast_generate($2)); }
     | prefer_word preferences                   { $$ = $2; }
     | weight_word expression                    { $$ = tn_ast_one(tn_ast_weight(parse, @$, $2, NULL)); }
     | weight_word expression positive           { $$ = tn_ast_one(tn_ast_weight(parse, @$, $2, $3)); }
@@ -677,6 +685,7 @@ trays_word: TRAYS                               { yyerrok; };
 total_word: TOTAL                               { yyerrok; };
 require_word: REQUIRE                           { yyerrok; };
 prune_word: PRUNE                               { yyerrok; };
+generate_word: GENERATE                         { yyerrok; };
 prefer_word: PREFER                             { yyerrok; };
 weight_word: WEIGHT                             { yyerrok; };
 allow_word: ALLOW                               { yyerrok; };

@@ -276,7 +276,7 @@ static void complete_clause_names(tn_lsp_cursor *c)
 static void complete_library(tn_lsp_cursor *c)
 {
     tn_offer_words(c, TN_AT(CLAUSE));
-    if (tn_cursor_is(c, c->clause, "require") || tn_cursor_is(c, c->clause, "prune") ||
+    if (tn_cursor_is(c, c->clause, "require") || tn_cursor_is(c, c->clause, "generate") || tn_cursor_is(c, c->clause, "prune") ||
         tn_cursor_is(c, c->clause, "prefer")) {
         tn_offer_words(c, TN_AT(CLAUSE_END));
         complete_expression(c);

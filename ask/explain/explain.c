@@ -343,20 +343,43 @@ static tn_status set_tree(const tn_explained *explained, const tn_explanation *w
     return status;
 }
 
+static tn_status set_beginning(const tn_explained *explained, const tn_generated_beginning *beginning,
+                               tn_generated_start *to, tn_error *error)
+{
+    enum { THEN_MAX = 100 };
+    tn_buffer words = {0};
+    to->trays = beginning->length;
+    to->may_end = beginning->may_end;
+    to->follows = beginning->count;
+    tn_words_beginning(explained, beginning, &words);
+    bool has = false;
+    tn_status status = take_words(&words, &to->words, &has, error);
+    for (tn_tray t = 0; status == TN_OK && t < explained->schema->tray_count && to->then.count < THEN_MAX; t++) {
+        tn_buffer line = {0};
+        if (!beginning->follows[t])
+            continue;
+        status = tn_plan_write_line(explained->schema, &t, 1, &line) ? tn_owneds_add(&to->then, line.data, error)
+                                                                     : tn_fail_memory(error);
+    }
+    return status;
+}
+
 static tn_status set_clause(const tn_explained *explained, const tn_explained_rule *rule, tn_explained_clause *to,
                             tn_error *error)
 {
-    static const char *const kinds[] = {"require", "total", "prune"};
     uint32_t largest = rule->holds ? TN_NO_WHY : tn_explanation_largest(&rule->why);
     to->name = rule->name;
     to->doc = rule->doc;
     to->has_doc = *rule->doc != '\0';
-    to->kind = rule->clause ? kinds[rule->clause->kind] : "rule";
+    to->kind = rule->clause ? tn_names_CLAUSE_KIND[rule->clause->kind] : "rule";
     to->matches = rule->holds;
     to->has_drops = rule->clause != NULL;
     to->drops = rule->drops;
     to->has_largest = largest != TN_NO_WHY;
+    to->has_beginning = rule->beginning.known;
     tn_status status = set_tree(explained, &rule->why, 0, &to->why, error);
+    if (status == TN_OK && to->has_beginning)
+        status = set_beginning(explained, &rule->beginning, &to->beginning, error);
     return status == TN_OK && to->has_largest ? set_part(explained, &rule->why, largest, &to->largest, error) : status;
 }
 

@@ -31,10 +31,9 @@ static tn_status choose(tn_house_explaining *e, const tn_explain_request *reques
 static tn_status set_clause(tn_house_explaining *e, const tn_house_clause *clause, tn_explained_house_clause *to,
                             tn_error *error)
 {
-    static const char *const kinds[] = {"require", "total", "prune"};
     to->name = clause->name;
     to->doc = clause->doc;
-    to->kind = clause->trays ? "trays" : kinds[clause->kind];
+    to->kind = clause->trays ? "trays" : tn_names_CLAUSE_KIND[clause->kind];
     to->of = clause->of_plans ? "plan" : "house";
     to->holds = clause->holds;
     to->drops = clause->drops;

@@ -5,7 +5,7 @@
 
 #include "ask/session/questions.h"
 #include "driver/open/digits.h"
-#include "runtime/plan/library/ranking.h"
+#include "runtime/plan/library/rank.h"
 #include "runtime/plan/measure/best.h"
 #include "runtime/plan/measure/moments.h"
 #include "runtime/plan/measure/named.h"

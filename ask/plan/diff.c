@@ -12,7 +12,7 @@
 #include "ask/session/made.h"
 #include "ask/session/questions.h"
 #include "driver/open/digits.h"
-#include "runtime/plan/match/code_hash.h"
+#include "runtime/plan/match/same.h"
 #include "runtime/plan/measure/amount.h"
 #include "runtime/plan/measure/moments.h"
 #include "runtime/plan/measure/named.h"

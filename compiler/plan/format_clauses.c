@@ -36,13 +36,14 @@ static bool find_chain(renamer *r, const char *name)
     return true;
 }
 
-/* "prune" or "require" for a clause that has no name of its own; NULL for others. */
+/* "prune", "require" or "generate" for a clause that has no name of its own; NULL for others. */
 static const char *clause_word(const tn_ast_clause *clause)
 {
-    if ((clause->form != TN_FORM_PRUNE && clause->form != TN_FORM_REQUIRE) || clause->name ||
-        clause->expr->kind == TN_EXPR_NAME)
-        return NULL;
-    return clause->form == TN_FORM_PRUNE ? "prune" : "require";
+    const char *word = clause->form == TN_FORM_PRUNE      ? "prune"
+                       : clause->form == TN_FORM_REQUIRE  ? "require"
+                       : clause->form == TN_FORM_GENERATE ? "generate"
+                                                          : NULL;
+    return !word || clause->name || clause->expr->kind == TN_EXPR_NAME ? NULL : word;
 }
 
 static size_t old_line(const renamer *r, size_t offset)

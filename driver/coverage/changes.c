@@ -200,6 +200,7 @@ static bool is_rule(const tn_ast_expr *expr)
     case TN_EXPR_TRUE:
     case TN_EXPR_FALSE:
     case TN_EXPR_BROKEN:
+    case TN_EXPR_RANGE:
     case TN_EXPR_NUMBER:
     case TN_EXPR_TRAYS:
     case TN_EXPR_MATCHES:
@@ -283,7 +284,7 @@ static void change_bounds(tn_change_walk *walk, tn_ast_expr *sum, bool *any)
     if (sum->kind == TN_EXPR_NUMBER && sum->name && tn_change_is_bound(sum->name)) {
         *any = true;
         tn_change_bound(walk, &sum->name);
-    } else if (sum->kind == TN_EXPR_PLUS || sum->kind == TN_EXPR_MINUS) {
+    } else if (sum->kind == TN_EXPR_PLUS || sum->kind == TN_EXPR_MINUS || sum->kind == TN_EXPR_RANGE) {
         for (TN_EACH(tn_ast_expr, part, sum->parts))
             change_bounds(walk, part, any);
     }
@@ -406,6 +407,21 @@ static void change_rest(tn_change_walk *walk, tn_ast_expr *expr)
     change_counted(walk, sum);
 }
 
+/* `repeat(a, 2..4)`, as it is written: what stands there, and how often. */
+static void change_repeat(tn_change_walk *walk, tn_ast_expr *expr)
+{
+    bool any = false;
+    walk->in.depth++;
+    change_expr(walk, (tn_ast_expr *)expr->parts.first, ALWAYS);
+    walk->in.depth--;
+    change_bounds(walk, (tn_ast_expr *)expr->parts.last, &any);
+}
+
+static bool is_repeat(const tn_ast_expr *expr)
+{
+    return expr->kind == TN_EXPR_CALL && expr->parts.count == 2 && strcmp(expr->name->text, "repeat") == 0;
+}
+
 /* Of several fields each may be left out. */
 static void change_mirrored(tn_change_walk *walk, tn_ast_expr *expr)
 {
@@ -481,6 +497,13 @@ static void change_inside(tn_change_walk *walk, tn_ast_expr *expr)
     case TN_EXPR_ROOM:
     case TN_EXPR_TOUCH:
     case TN_EXPR_APART:
+        break;
+    case TN_EXPR_CALL:
+        if (is_repeat(expr)) {
+            change_repeat(walk, expr);
+            break;
+        }
+        change_parts(walk, expr, EITHER);
         break;
     default:
         change_parts(walk, expr, EITHER);

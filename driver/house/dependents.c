@@ -62,29 +62,37 @@ static bool is_inside(const tn_function_record *function, const uint32_t *offset
     return false;
 }
 
-static void mark_callees(const tn_module *module, uint32_t function, bool *reached)
+/* *more: a function above this one was reached, in a circle. */
+static void mark_callees(const tn_module *module, uint32_t function, bool *reached, bool *more)
 {
     const tn_function_record *record = &module->FUNCTION_records[function];
     for (uint32_t at = record->code_begin; at < record->code_end;) {
         tn_instruction op = tn_code_read(module->code, at);
-        if (op.opcode == TN_OP_CALL || op.opcode == TN_OP_MIRROR)
+        if (tn_code_calls(op.opcode)) {
+            *more |= !reached[op.first] && op.first > function;
             reached[op.first] = true;
+        }
         at += op.length;
     }
 }
 
 /* Is one of the instructions in the function, or in one that it calls? Callees have lower numbers: one pass downwards
- * finds them all. (A comparison of sums is one part: nothing in it is a part of its own.) reached: room for all. */
+ * finds them all, and another is needed where a circle leads up. (A comparison of sums is one part: nothing in it is a
+ * part of its own.) reached: room for all. */
 static bool concerns(const tn_module *module, uint32_t function, const uint32_t *offsets, size_t count, bool *reached)
 {
-    memset(reached, 0, ((size_t)function + 1) * sizeof *reached);
+    bool more = true;
+    memset(reached, 0, (size_t)module->FUNCTION_count * sizeof *reached);
     reached[function] = true;
-    for (uint32_t f = function + 1; f-- > 0;) {
-        if (!reached[f])
-            continue;
-        if (is_inside(&module->FUNCTION_records[f], offsets, count))
-            return true;
-        mark_callees(module, f, reached);
+    while (more) {
+        more = false;
+        for (uint32_t f = function + 1; f-- > 0;) {
+            if (!reached[f])
+                continue;
+            if (is_inside(&module->FUNCTION_records[f], offsets, count))
+                return true;
+            mark_callees(module, f, reached, &more);
+        }
     }
     return false;
 }

@@ -62,6 +62,10 @@ static tn_status explain_clause(tn_explained *explained, uint32_t i, size_t max_
     tn_status status = explain_one(explained, made, clause->holds, max_length, error);
     made->drops = status == TN_OK && made->holds == (clause->kind == TN_CLAUSE_PRUNE);
     explained->kept = explained->kept && !made->drops;
+    if (status == TN_OK && made->drops && clause->kind == TN_CLAUSE_GENERATE)
+        status = tn_generated_beginning_find(explained->schema, clause->holds, explained->library->trays_min,
+                                             explained->library->trays_max, explained->trays, explained->length,
+                                             &made->beginning, error);
     return status;
 }
 
@@ -106,8 +110,10 @@ tn_status tn_explained_near(tn_explained *explained, tn_near_finder *finder, siz
 
 void tn_explained_clear(tn_explained *explained)
 {
-    for (size_t i = 0; i < explained->count; i++)
+    for (size_t i = 0; i < explained->count; i++) {
         tn_explanation_clear(&explained->rules[i].why);
+        tn_generated_beginning_clear(&explained->rules[i].beginning);
+    }
     for (size_t i = 0; i < explained->preference_count; i++)
         tn_explanation_clear(&explained->preferences[i].why);
     free(explained->preferences);

@@ -9,6 +9,7 @@
 #include "driver/plan/library.h"
 #include "runtime/base/picture.h"
 #include "runtime/plan/analysis/explain.h"
+#include "runtime/plan/analysis/generated.h"
 #include "runtime/plan/library/near.h"
 #include "runtime/plan/text/text.h"
 
@@ -19,6 +20,7 @@ typedef struct tn_explained_rule {
     bool holds;
     bool drops; /* a clause that keeps the plan out of its library */
     tn_explanation why;
+    tn_generated_beginning beginning; /* of a clause that says what plans are made of, if this one is not */
 } tn_explained_rule;
 
 /* A preference of a library, explained. */
@@ -93,6 +95,10 @@ void tn_words_gap(const tn_explanation *why, uint32_t index, const tn_gap *gap, 
 
 /* "width 8', body open:8'": a tray's values that do not meet a specifier. */
 void tn_words_wrong(const tn_explanation *why, const tn_why *node, tn_buffer *out);
+
+/* How far the plan goes along with those that are generated: "`4' hall | 8' room` is how some generated plan begins;
+ * then may come `4' stair` or the end". */
+bool tn_words_beginning(const tn_explained *explained, const tn_generated_beginning *beginning, tn_buffer *out);
 
 /* How a near plan differs: "tray 2: width 8' for 4'; tray 3 left out". */
 bool tn_words_changes(const tn_explained *explained, const tn_near_plan *plan, tn_buffer *out);

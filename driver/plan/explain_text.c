@@ -93,13 +93,23 @@ static const char *verdict(const tn_explained_rule *rule)
     return rule->holds ? "is met" : "is not met";
 }
 
+static void write_beginning(writing *w, const tn_explained *explained, const tn_generated_beginning *beginning)
+{
+    tn_buffer words = {0};
+    if (!beginning->known)
+        return;
+    w->ok = w->ok && tn_words_beginning(explained, beginning, &words) &&
+            tn_buffer_printf(w->out, "  how far it goes: %s\n", words.data);
+    free(words.data);
+}
+
 bool tn_explained_rule_text(const tn_explained *explained, const tn_explained_rule *rule, bool full, tn_buffer *out)
 {
     writing w = {.why = &rule->why, .full = full, .out = out, .ok = true};
-    (void)explained;
     w.ok &= tn_buffer_printf(out, "`%s` %s%s%s\n", rule->name, verdict(rule), *rule->doc ? ": " : "", rule->doc);
     write_tree(&w);
     write_largest(&w);
+    write_beginning(&w, explained, &rule->beginning);
     return w.ok;
 }
 

@@ -231,3 +231,40 @@ bool tn_words_changes(const tn_explained *explained, const tn_near_plan *plan, t
     free(cost);
     return !out->failed;
 }
+
+/* ---- how far a plan goes along with what is generated */
+
+enum { FOLLOWS_SHOWN = 4 };
+
+bool tn_words_beginning(const tn_explained *explained, const tn_generated_beginning *beginning, tn_buffer *out)
+{
+    const tn_schema *schema = explained->schema;
+    tn_buffer line = {0};
+    bool nothing = beginning->count == 0 && !beginning->may_end, ok = true;
+    if (nothing)
+        return tn_buffer_printf(out, "no plan is so made that has as many trays as plans of this library have");
+    if (beginning->length == 0)
+        ok = tn_buffer_printf(out, "not its first tray; there may come ");
+    else if (beginning->length == explained->length)
+        ok = tn_buffer_printf(out, "to its end, and it cannot end there; then may come ");
+    else
+        ok = beginning->length == 1
+                 ? tn_buffer_printf(out, "its first tray is as in some plan that is so made; then may come ")
+                 : tn_buffer_printf(out, "its first %u trays are as in some plan that is so made; then may come ",
+                                    beginning->length);
+    uint32_t shown = 0;
+    for (tn_tray t = 0; ok && t < schema->tray_count && shown < FOLLOWS_SHOWN; t++) {
+        if (!beginning->follows[t])
+            continue;
+        line.size = 0;
+        ok = tn_plan_write_line(schema, &t, 1, &line) &&
+             tn_buffer_printf(out, "%s`%s`", shown == 0 ? "" : ", ", line.data);
+        shown++;
+    }
+    if (ok && beginning->count > shown)
+        ok = tn_buffer_printf(out, " or %u others", beginning->count - shown);
+    if (ok && beginning->may_end)
+        ok = tn_buffer_printf(out, "%sthe plan's end", beginning->count > 0 ? ", or " : "");
+    free(line.data);
+    return ok;
+}

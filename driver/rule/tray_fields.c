@@ -196,7 +196,7 @@ static uint32_t find_spec(const sought *s)
     uint32_t found = UINT32_MAX;
     for (uint32_t f = 0; f < module->FUNCTION_count; f++) {
         const tn_function_record *function = &module->FUNCTION_records[f];
-        if (function->kind != TN_FUNCTION_WHOLE && function->kind != TN_FUNCTION_HOLDS)
+        if (!tn_function_is_whole(function) && function->kind != TN_FUNCTION_HOLDS)
             continue;
         for (uint32_t at = function->code_begin; at < function->code_end;) {
             tn_instruction it = tn_code_read(module->code, at);

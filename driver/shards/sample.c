@@ -3,7 +3,7 @@
 
 #include "driver/shards/set.h"
 #include "runtime/plan/library/library.h"
-#include "runtime/plan/library/sample_shares.h"
+#include "runtime/plan/library/sample.h"
 
 static tn_draws draws_of(const tn_shard_set *set, mpz_srcptr all)
 {

@@ -47,6 +47,11 @@ tn_status tn_marked_somewhere(const tn_marked *marked, const tn_dfa *a, tn_dfa *
 /* MANY: non-empty stretches whose single letters are all in a. */
 tn_status tn_marked_many(const tn_marked *marked, const tn_dfa *a, tn_dfa **out, tn_error *error);
 
+/* REPEATED: stretches cut into `least` to `most` non-empty stretches of a, one after another. most 0: into any number from
+ * `least` on. least: at least 1. */
+tn_status tn_marked_repeat(const tn_marked *marked, const tn_dfa *a, uint32_t least, uint32_t most, tn_dfa **out,
+                           tn_error *error);
+
 /* DISTANCE: source less the stretches with some destination at a gap that fails the separator. The gap of an overlap is
  * the empty stretch at the source's start (`mirrored`: at its end). */
 tn_status tn_marked_distance(const tn_marked *marked, const tn_dfa *source, const tn_dfa *destination,

@@ -14,6 +14,9 @@ typedef struct tn_instruction {
     int64_t second;
 } tn_instruction;
 
+/* Into how many stretches REPEATED may cut one. */
+#define TN_REPEATED_MAX 1000000u
+
 /* What an operand is (operands.def). */
 typedef enum tn_slot_kind {
     TN_SLOT_NOTHING,
@@ -52,6 +55,18 @@ static inline tn_operands tn_code_operands(uint8_t opcode)
 #include "runtime/module/opcodes.def"
     };
     return (tn_operands)kinds[opcode];
+}
+
+/* Does it take the relation of another function? Calls lead to lower functions, except in a circle (AGAIN). */
+static inline bool tn_code_calls(tn_opcode opcode)
+{
+    return opcode == TN_OP_CALL || opcode == TN_OP_MIRROR || opcode == TN_OP_AGAIN;
+}
+
+/* Is it the judgement M of a rule? */
+static inline bool tn_function_is_whole(const tn_function_record *function)
+{
+    return function->kind == TN_FUNCTION_WHOLE || function->kind == TN_FUNCTION_CIRCLE;
 }
 
 /* Does it compare a number of the whole house with 0? */

@@ -2,9 +2,9 @@
 """Holds rules, measures and libraries to a slow reference: relations.py TARTAN ORACLES FIRST LAST
 
 ORACLES/plan/third.py has the definitions: relations to what lies around, `where`, `mirrored`, `values`, remainders, the greatest and the
-least, gaps, quotients, alone and in one another. Of each seed random rules are asked of all short plans, by both engines and in a library;
+least, gaps, quotients, what is repeated, rules that use themselves, alone and in one another. Of each seed random rules are asked of all short plans, by both engines and in a library;
 measures are spread and their best plans listed; a library has params, preferences and weights. What the reference has and the language
-does not (repeated parts, trays by sums) is left out of the cases.
+does not (trays by sums) is left out of the cases.
 """
 import json
 import os
@@ -18,13 +18,15 @@ from fractions import Fraction
 PROGRAM, ORACLES, FIRST, LAST = sys.argv[1], sys.argv[2], int(sys.argv[3]), int(sys.argv[4])
 sys.path.insert(0, os.path.join(ORACLES, "plan"))
 import third
-from third import INF, Compare, Const, Count, EveryNear, EveryTray, Extreme, Gap, Implies, Join, Judge, Many, Mirrored, Neighbour, Not, Ratio, Symmetric, Values, Where
+from third import INF, Compare, Const, Count, EveryNear, EveryTray, Extreme, Gap, Implies, Join, Judge, Many, Mirrored, Name, Neighbour, Not, Ratio, Repeat, Symmetric, Values, Where
 
 FOLDER = tempfile.mkdtemp()
 
 
 class Maker(third.Maker):
     """Random rules of one schema, in the words that there are."""
+
+    names = ()  # rules that use themselves
 
     def spec(self):
         made = super().spec()
@@ -56,8 +58,46 @@ class Maker(third.Maker):
         R = self.R
         return self.about() if R.random() < .7 else Join(R.choice(["and", "or"]), [self.about(), Not(self.about())])
 
+    def repeated(self, depth=0):
+        low = self.R.randint(0, 3)
+        inner = self.short() if depth == 0 or self.R.random() < .5 else self.rule(depth - 1)
+        made = Repeat(inner, max(low, 1), self.R.choice([None, max(low, 1) + self.R.randint(0, 2)]), self.longest)
+        if low > 0:
+            return made
+        return Neighbour(self.R.sample([self.spec(), Repeat(inner, 0, made.high, self.longest)], 2))
+
+    def circles(self):
+        """Rules that use themselves and one another: at one end, at both, in the middle, below `optional` and `repeat`."""
+        R = self.R
+        names = [Name(f"g{k}") for k in range(R.randint(1, 3))]
+        self.names = []
+        for name in names:
+            name.parts = [self.rule(1) if R.random() < .3 else self.short()]
+            kind = R.randrange(7)
+            other = R.choice(names)
+            beside = [self.short() for _ in range(2)]
+            name.parts.append(
+                Neighbour([beside[0], other]) if kind < 2 else
+                Neighbour([other, beside[0]]) if kind == 2 else
+                Neighbour([beside[0], other, beside[1]]) if kind == 3 else
+                Neighbour([beside[0], ("optional", other), beside[1], ("optional", R.choice(names))]) if kind == 4 else
+                Neighbour([Join("or", [beside[0], beside[1]]), Join("or", [other, beside[1]])]) if kind == 5 else
+                Neighbour([beside[0], Repeat(other, R.randint(0, 1), R.choice([None, 2]), self.longest)]))
+            if R.random() < .3:
+                name.parts.append(Neighbour([self.short(), R.choice(names)], begin=R.random() < .3))
+            name.body = Join("or", name.parts)
+        for early, late in zip(names, names[1:]):  # without a tray between, but not round
+            if R.random() < .3:
+                early.body = Join("or", [*early.parts, late])
+        self.names = names
+        return {name.text: name.body for name in names}
+
     def rule(self, depth=2):
-        R, kind = self.R, self.R.randrange(18)
+        R, kind = self.R, self.R.randrange(21)
+        if kind == 18:
+            return self.repeated(depth)
+        if kind > 18 and self.names:
+            return R.choice(self.names)
         if kind < 2:
             return self.near()
         if kind < 4:
@@ -101,12 +141,14 @@ class Case:
         every = ([t for t in trays] for n in range(self.longest + 1) for trays in third.itertools.product(self.S.trays, repeat=n))
         self.judges = [Judge(plan, self.S) for plan in every]
         self.lines = [self.S.line(judge.w) for judge in self.judges]
-        self.rules = {f"w{k}": self.K.rule() for k in range(8)}
+        self.rules = self.K.circles()
+        self.rules |= {f"w{k}": self.K.rule() for k in range(8)}
         self.wish = self.K.spec()
         self.kept = [k for k, judge in enumerate(self.judges) if judge.N > 0 and judge.matched(self.wish)]
         self.measures = [self.K.extreme(), self.K.extreme(), self.K.quotient(), Values(self.R.choice(list(self.S.fields)), self.S)]
         self.side, self.heavy = self.K.spec(), self.K.spec()
         self.number = self.R.choice([Fraction(7), Fraction(1, 2), Fraction(5, 2)])
+        self.K.names = ()  # two preferences of one name are an error
         self.likes = [(self.K.rule(1), self.R.choice([None, Fraction(3), Fraction(1, 2)])) for _ in range(2)]
 
     def text(self):

@@ -179,6 +179,11 @@ typedef struct tn_checked_rule {
     size_t use_count, use_capacity;
     int state; /* of ordering */
     size_t next_use;
+    uint32_t number, lowest,
+        finished; /* of ordering: when it was met, the first that it leads back to, when it was done */
+    struct tn_checked_rule *circle; /* the first in order of the circle of rules that it is in; NULL: none */
+    size_t circle_size;             /* of that one: how many these are */
+    bool ends;                      /* in a circle: some row of trays is one */
     bool is_measure;
     const struct tn_checked_rule *outer; /* while it is being written out: the call that it stands in */
     tn_ast_expr *written;                /* the body before anything was written out */
@@ -470,9 +475,6 @@ tn_checked_condition *tn_check_count(tn_check *check, const tn_ast_expr *quantit
 tn_checked_condition *tn_check_total(tn_check *check, const tn_ast_clause *clause, uint32_t field);
 bool tn_check_range(tn_check *check, const tn_ast_range *range, bool lengths); /* false: reported */
 
-/* Always, never, remainders that cannot be. */
-void tn_check_truth(tn_check *check, const tn_checked_condition *condition, const char *variable, uint32_t field);
-
 /* ---- rule.c */
 /* Is the word after the field of a sum or total `depth`, and the field a zone? NULL is good. */
 bool tn_check_detail(tn_check *check, const tn_checked_field *field, const tn_ast_word *detail);
@@ -561,7 +563,13 @@ void tn_check_list_params(tn_check *check);                   /* for the program
 /* Is what stands in a schema the name of a param? Then that is reported. */
 bool tn_refuse_param(tn_check *check, const tn_checked_schema *schema, const tn_ast_word *word);
 void tn_check_with(tn_check *check, const tn_ast_test *test); /* those of a test in check->unit */
-void tn_check_settle(tn_check *check);                        /* checks the rules that were added since the last time */
+/* ---- circle.c */
+/* Puts the rules that were added since the last time behind what they name. Circles are found, and looked at. */
+void tn_check_order(tn_check *check);
+void tn_check_circle(tn_checked_rule *const *members); /* what is to be known of all of its rules before any of them */
+
+/* ---- check.c */
+void tn_check_settle(tn_check *check); /* checks the rules that were added since the last time */
 
 /* ---- warnings.c */
 void tn_check_warnings(tn_check *check, const tn_ast_expr *expr);
@@ -618,7 +626,7 @@ const char *tn_check_positive(tn_check *check, const tn_ast_word *word, const ch
 /* ---- form.c */
 void tn_check_forms(tn_check *check);
 
-/* ---- test.c, literal.c */
+/* ---- test.c */
 void tn_check_tests(tn_check *check);
 /* The values of a plan's trays, field by field; NULL where reported or empty. */
 const uint8_t *tn_check_plan(tn_check *check, const tn_checked_schema *schema, tn_ast_list trays, size_t *length);

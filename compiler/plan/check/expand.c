@@ -10,6 +10,7 @@
 #include "compiler/plan/check/amount.h"
 
 #include "compiler/common/limits.h"
+#include "runtime/module/code.h"
 
 enum { CALLS_DEEP = 64 };
 
@@ -452,10 +453,86 @@ static tn_ast_word *field_of(tn_rule_expansion *expansion, const tn_ast_expr *ca
     return NULL;
 }
 
-/* `values(f)`, `mirrored(f, g)`: calls of what the language has itself. A rule with parameters of that name hides it.
- */
+static void report_repeat(const tn_rule_expansion *expansion, tn_span place)
+{
+    tn_diagnostics *diagnostics = expansion->check->diagnostics;
+    tn_diagnostic *d =
+        tn_report(diagnostics, E_BAD_ARGUMENT, place, "`repeat` needs what stands there, and how often side by side");
+    tn_help(diagnostics, d, "write `repeat(tray(...), 2..4)`, `repeat(tray(...), 2..)` or `repeat(tray(...), 3)`");
+}
+
+/* The number that one end of a range comes to; false: reported. */
+static bool times(tn_rule_expansion *expansion, const tn_ast_expr *written, uint32_t *number)
+{
+    tn_check *check = expansion->check;
+    tn_ast_expr *made = expand(expansion, written);
+    const tn_ast_word *word = made ? tn_expand_constant(expansion, made, written->node.span) : NULL;
+    if (!word || word->broken)
+        return false;
+    if (word->kind != TN_WORD_NUMBER || word->value < 0) {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_ARGUMENT, written->node.span,
+                                     "how often something is repeated is a whole number");
+        tn_help(check->diagnostics, d, "write `repeat(tray(...), 2..4)`");
+        return false;
+    }
+    if (word->value > TN_REPEATED_MAX) {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_TOO_MANY, written->node.span,
+                                     "this is more often than the limit of %u times", TN_REPEATED_MAX);
+        tn_help(check->diagnostics, d, "plans are shorter: `2..` is any number from two on");
+        return false;
+    }
+    *number = (uint32_t)word->value;
+    return true;
+}
+
+/* Fills least and most; false: reported. */
+static bool read_times(tn_rule_expansion *expansion, const tn_ast_expr *written, tn_ast_expr *repeat)
+{
+    tn_diagnostics *diagnostics = expansion->check->diagnostics;
+    bool range = written->kind == TN_EXPR_RANGE, open = range && written->parts.count == 1;
+    const tn_ast_expr *low = range ? (const tn_ast_expr *)written->parts.first : written,
+                      *high = range ? (const tn_ast_expr *)written->parts.last : written;
+    if (!times(expansion, low, &repeat->least) || (!open && !times(expansion, high, &repeat->most)))
+        return false;
+    if (open || (repeat->most >= repeat->least && repeat->most > 0))
+        return true;
+    if (repeat->most > 0 || repeat->least > 0) {
+        tn_diagnostic *d =
+            tn_report(diagnostics, E_RANGE_BACKWARDS, written->node.span, "this range ends before it starts");
+        tn_advise(diagnostics, d, "%u..%u", repeat->most, repeat->least);
+        return false;
+    }
+    tn_diagnostic *d = tn_report(diagnostics, E_BAD_ARGUMENT, written->node.span, "this repeats nothing");
+    tn_help(diagnostics, d, "write how often at least and at most: `1..3`");
+    return false;
+}
+
+/* `repeat(a, 2..4)` */
+static tn_ast_expr *expand_repeat(tn_rule_expansion *expansion, const tn_ast_expr *call)
+{
+    const tn_ast_expr *part = (const tn_ast_expr *)call->parts.first, *often = (const tn_ast_expr *)call->parts.last;
+    if (call->parts.count != 2 || part->kind == TN_EXPR_RANGE) {
+        report_repeat(expansion, call->node.span);
+        return broken(expansion, call);
+    }
+    tn_ast_expr *made = shallow(expansion, call);
+    if (!made)
+        return NULL;
+    made->kind = TN_EXPR_REPEAT;
+    made->parts = tn_ast_one(expand(expansion, part));
+    bool number = expansion->number;
+    expansion->number = true;
+    bool good = read_times(expansion, often, made);
+    expansion->number = number;
+    return good ? made : broken(expansion, call);
+}
+
+/* `values(f)`, `mirrored(f, g)`, `repeat(a, N)`: calls of what the language has itself. A rule with parameters of that
+ * name hides it. */
 static tn_ast_expr *expand_own_call(tn_rule_expansion *expansion, const tn_ast_expr *call)
 {
+    if (tn_word_is(call->name, "repeat"))
+        return expand_repeat(expansion, call);
     bool values = tn_word_is(call->name, "values");
     tn_ast_expr *made = shallow(expansion, call);
     if (!made)
@@ -481,8 +558,25 @@ static tn_ast_expr *expand_own_call(tn_rule_expansion *expansion, const tn_ast_e
 static bool is_own_call(const tn_rule_expansion *expansion, const tn_ast_expr *call)
 {
     const tn_checked_rule *rule = rule_named(expansion, call->name);
-    bool own = tn_word_is(call->name, "values") || tn_word_is(call->name, "mirrored");
+    bool own =
+        tn_word_is(call->name, "values") || tn_word_is(call->name, "mirrored") || tn_word_is(call->name, "repeat");
     return call->kind == TN_EXPR_CALL && own && !(rule && rule->is_template);
+}
+
+/* Is a range one of the arguments? Then that is reported. */
+static bool has_range(tn_rule_expansion *expansion, const tn_ast_expr *call)
+{
+    tn_diagnostics *diagnostics = expansion->check->diagnostics;
+    for (TN_EACH(const tn_ast_expr, argument, call->parts)) {
+        if (argument->kind != TN_EXPR_RANGE)
+            continue;
+        tn_diagnostic *d =
+            tn_report(diagnostics, E_BAD_ARGUMENT, argument->node.span,
+                      "a range is an argument of `repeat` alone, and this is a call of `%s`", call->name->text);
+        tn_help(diagnostics, d, "a comparison takes a range: `quantity(...) in 2..4`");
+        return true;
+    }
+    return false;
 }
 
 /* `name(...)` or `name` of a rule with parameters. */
@@ -496,7 +590,7 @@ static tn_ast_expr *expand_call(tn_rule_expansion *expansion, const tn_ast_expr 
     const tn_checked_name *name =
         call->kind == TN_EXPR_CALL ? tn_check_call_name(check, call) : tn_check_name(check, call->name, TN_WANT_RULE);
     check->unit = unit;
-    if (!name || !arguments_fit(expansion, call, name->rule, call->parts.count))
+    if (!name || !arguments_fit(expansion, call, name->rule, call->parts.count) || has_range(expansion, call))
         return broken(expansion, call);
     tn_ast_list arguments = expand_parts(expansion, call->parts);
     return name_of(expansion, call, instance(expansion, call, name->rule, arguments));

@@ -80,6 +80,8 @@ static void put_expression(text *t, const tn_ast_expr *expr)
     put_number(t, expr->op);
     put_number(t, expr->near);
     put_number(t, expr->region);
+    put_number(t, expr->least);
+    put_number(t, expr->most);
     put_number(t, expr->rule && expr->rule->hidden ? (long long)expr->rule->serial : -1);
     put_number(t, (long long)expr->unit);
     put_number(t, expr->older ? (long long)expr->older->index : -1);

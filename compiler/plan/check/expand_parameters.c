@@ -78,7 +78,7 @@ static void use_expression(parameters *p, const tn_ast_expr *expr, bool number)
     bool sum = expr->kind == TN_EXPR_COMPARE || expr->kind == TN_EXPR_WITHIN || expr->kind == TN_EXPR_PLUS ||
                expr->kind == TN_EXPR_MINUS || expr->kind == TN_EXPR_TIMES || expr->kind == TN_EXPR_OVER ||
                expr->kind == TN_EXPR_REMAINDER || expr->kind == TN_EXPR_NEGATIVE || expr->kind == TN_EXPR_LEAST ||
-               expr->kind == TN_EXPR_MOST;
+               expr->kind == TN_EXPR_MOST || expr->kind == TN_EXPR_RANGE;
     if (expr->kind == TN_EXPR_NAME)
         use(p, expr->name, number ? USE_NUMBER : USE_EXPRESSION);
     if (expr->kind == TN_EXPR_FIGURE)

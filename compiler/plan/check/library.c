@@ -43,7 +43,9 @@ static bool name_is_free(tn_check *check, const tn_checked_library *library, con
         return true;
     if (clause->rule && before->rule == clause->rule && before->kind == clause->kind) {
         if (tn_check_wanted(check, W_PRUNED_TWICE)) {
-            const char *verb = clause->kind == TN_CLAUSE_PRUNE ? "prunes" : "requires";
+            const char *verb = clause->kind == TN_CLAUSE_PRUNE      ? "prunes"
+                               : clause->kind == TN_CLAUSE_GENERATE ? "generates"
+                                                                    : "requires";
             tn_diagnostic *d = tn_report(check->diagnostics, W_PRUNED_TWICE, place, "library `%s` %s `%s` twice",
                                          library->name, verb, clause->name);
             tn_note(check->diagnostics, d, &before->span, "the first time is here");
@@ -106,7 +108,9 @@ static void add_expr_clause(tn_check *check, tn_checked_library *library, tn_ast
         if (name_is_free(check, library, clause, ast->name ? ast->name->node.span : ast->expr->node.span))
             put_clause(check, library, clause);
     } else {
-        const char *word = ast->form == TN_FORM_PRUNE ? "prune" : "require";
+        const char *word = ast->form == TN_FORM_PRUNE      ? "prune"
+                           : ast->form == TN_FORM_GENERATE ? "generate"
+                                                           : "require";
         clause->name = tn_clause_name(check, &library->clause_names, word, ast->node.span);
         if (clause->name)
             put_clause(check, library, clause);
@@ -179,16 +183,33 @@ static void set_trays(tn_check *check, tn_checked_library *library, const tn_ast
     library->trays_max = (uint32_t)high;
 }
 
+/* Plans are made in one way, also if the library is made from another. */
+static bool generates_twice(tn_check *check, const tn_checked_library *library, const tn_checked_clause *clause)
+{
+    for (size_t i = 0; i < library->clause_count; i++) {
+        const tn_checked_clause *before = library->clauses[i];
+        if (before->kind != TN_CLAUSE_GENERATE)
+            continue;
+        tn_diagnostic *d = tn_report(check->diagnostics, E_GENERATED_TWICE, clause->span,
+                                     "library `%s` says already what its plans are made of", library->name);
+        tn_note(check->diagnostics, d, &before->span, "it is said here");
+        tn_help(check->diagnostics, d, "a plan that is this, too: `require neighbour(beginning, ..., end)`");
+        return true;
+    }
+    return false;
+}
+
 static void add_clause(tn_check *check, tn_checked_library *library, tn_ast_clause *ast)
 {
     static const tn_clause_kind kinds[] = {
         [TN_FORM_TOTAL_RANGE] = TN_CLAUSE_TOTAL, [TN_FORM_TOTAL_COMPARE] = TN_CLAUSE_TOTAL,
         [TN_FORM_REQUIRE] = TN_CLAUSE_REQUIRE,   [TN_FORM_PRUNE] = TN_CLAUSE_PRUNE,
+        [TN_FORM_GENERATE] = TN_CLAUSE_GENERATE,
         [TN_FORM_ALLOW] = TN_CLAUSE_PRUNE,       [TN_FORM_WEIGHT] = TN_CLAUSE_REQUIRE,
         [TN_FORM_PREFER] = TN_CLAUSE_REQUIRE,
     };
     bool of_plans = ast->form == TN_FORM_TRAYS || ast->form == TN_FORM_WEIGHT || ast->form == TN_FORM_PREFER ||
-                    kinds[ast->form] == TN_CLAUSE_TOTAL;
+                    kinds[ast->form] == TN_CLAUSE_TOTAL || ast->form == TN_FORM_GENERATE;
     if (library->form && of_plans) {
         tn_diagnostic *d =
             tn_report(check->diagnostics, E_HOUSE_CLAUSE, ast->node.span, "a library of houses cannot say %s",
@@ -222,6 +243,8 @@ static void add_clause(tn_check *check, tn_checked_library *library, tn_ast_clau
                                   .written = ast->expr,
                                   .span = ast->node.span,
                                   .field = TN_NONE};
+    if (clause->kind == TN_CLAUSE_GENERATE && generates_twice(check, library, clause))
+        return;
     if (clause->kind != TN_CLAUSE_TOTAL)
         add_expr_clause(check, library, ast, clause);
     else if (library->schema)

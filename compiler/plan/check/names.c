@@ -495,7 +495,7 @@ static bool report_misspelled(tn_check *check, const tn_ast_word *word)
     if (tn_names_get(&check->names, word->text) || tn_slip_find(TN_SLIP_RULE, word->text, strlen(word->text)))
         return false;
     const char *near = nearest_name(check, word->text, TN_WANT_RULE);
-    size_t count = tn_vocabulary_list(&tn_plan_words, TN_AT(RULE), TN_AS_CALL, words, WORDS_MAX);
+    size_t count = tn_vocabulary_list(&tn_plan_words, TN_AT(RULE), TN_AS_CALL | TN_AS_VALUE, words, WORDS_MAX);
     const char *meant = near ? NULL : tn_nearest(word->text, words, count);
     if (!meant)
         return false;

@@ -65,10 +65,35 @@ static void report_edge(tn_check *check, const tn_ast_expr *edge)
             beginning ? "write `neighbour(beginning, tray(...))`" : "write `neighbour(tray(...), end)`");
 }
 
+/* `repeat(a, 0..3)` is `optional(repeat(a, 1..3))`. */
+static void make_optional(tn_check *check, tn_ast_expr *repeat)
+{
+    tn_ast_expr *inner = TN_NEW(check->arena, tn_ast_expr);
+    if (!inner)
+        return;
+    *inner = *repeat;
+    inner->node.next = NULL;
+    inner->least = 1;
+    repeat->kind = TN_EXPR_OPTIONAL;
+    repeat->parts = tn_ast_one(inner);
+}
+
+static void check_repeat(tn_check *check, tn_ast_expr *repeat)
+{
+    tn_check_expr(check, (tn_ast_expr *)repeat->parts.first);
+    if (repeat->least > 0)
+        return;
+    tn_diagnostic *d = tn_report(check->diagnostics, E_MISPLACED_OPTIONAL, repeat->node.span,
+                                 "what may be left out can only be a part of a neighbour");
+    tn_help(check->diagnostics, d, "begin with 1, or write `neighbour(tray(...), repeat(..., 0..))`");
+}
+
 static void check_neighbour(tn_check *check, tn_ast_expr *neighbour)
 {
     size_t trays = 0, optional = 0;
     for (TN_EACH(tn_ast_expr, part, neighbour->parts)) {
+        if (part->kind == TN_EXPR_REPEAT && part->least == 0)
+            make_optional(check, part);
         bool first = (tn_ast_node *)part == neighbour->parts.first, last = (tn_ast_node *)part == neighbour->parts.last;
         if (is_edge(part)) {
             if (part->kind == TN_EXPR_BEGINNING ? !first : !last)
@@ -245,6 +270,9 @@ void tn_check_expr_known(tn_check *check, tn_ast_expr *expr)
         break;
     case TN_EXPR_MIRRORED:
         check_mirrored(check, expr);
+        break;
+    case TN_EXPR_REPEAT:
+        check_repeat(check, expr);
         break;
     case TN_EXPR_PLAN:
         if (check->schema)
@@ -437,6 +465,10 @@ uint32_t tn_min_trays(const tn_ast_expr *expr)
     case TN_EXPR_AND:
     case TN_EXPR_OR:
         return min_of_parts(expr);
+    case TN_EXPR_REPEAT: {
+        uint64_t trays = (uint64_t)expr->least * tn_min_trays((const tn_ast_expr *)expr->parts.first);
+        return trays < TN_NONE ? (uint32_t)trays : TN_NONE;
+    }
     case TN_EXPR_SYMMETRIC:
     case TN_EXPR_DISTANCE:
     case TN_EXPR_NEAR:

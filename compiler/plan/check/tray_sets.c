@@ -267,6 +267,19 @@ static void report_none(tn_check *check, const tn_ast_expr *tray, tn_ast_list it
             check->schema->name);
 }
 
+/* Leaves the boxes out that no legal tray is in, but for one if all are such: that is said of it. */
+static void leave_out_illegal(tn_check *check, tn_checked_schema *schema, tn_checked_trays *trays)
+{
+    tn_choice_set legal = tn_legal_set(check, schema);
+    size_t kept = 0;
+    for (size_t i = 0; i < trays->count; i++) {
+        tn_choice_set box = tn_choices_box(schema->choices, trays->boxes[i]->mask);
+        if (tn_choices_and(schema->choices, box, legal) != TN_CHOICE_NONE)
+            trays->boxes[kept++] = trays->boxes[i];
+    }
+    trays->count = kept ? kept : trays->count > 0;
+}
+
 static void set_spec(tn_check *check, tn_ast_expr *tray, tn_tray_set set, tn_ast_list written)
 {
     tn_checked_schema *schema = tray->spec->schema;
@@ -275,6 +288,7 @@ static void set_spec(tn_check *check, tn_ast_expr *tray, tn_tray_set set, tn_ast
     narrow(schema, tray->spec, &set);
     if (!tn_check_undivided(check, schema, set, span) || !tn_check_boxes(check, schema, set.yes, span, &trays))
         return;
+    leave_out_illegal(check, schema, &trays);
     if (trays.count == 0) {
         report_none(check, tray, written);
         uint64_t *none = TN_NEW_ARRAY(check->arena, uint64_t, schema->words);

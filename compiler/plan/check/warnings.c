@@ -62,10 +62,10 @@ static words words_between(const tn_check *check, uint32_t file, uint32_t begin,
     return (words){text + begin, end - begin};
 }
 
-/* What stands inside `tray(...)`; nothing where it does not fit into a line. */
-static words inside_tray(const tn_check *check, const tn_ast_expr *tray)
+/* What stands inside `tray(...)` or `many(...)`; nothing where it does not fit into a line. */
+static words inside_call(const tn_check *check, const tn_ast_expr *call)
 {
-    tn_span span = tray->node.span;
+    tn_span span = call->node.span;
     words all = words_between(check, span.file, span.begin, span.end);
     const char *open = memchr(all.text, '(', all.size);
     if (!open || all.text[all.size - 1] != ')' || memchr(all.text, '\n', all.size))
@@ -85,7 +85,7 @@ static bool is_word(words w, const char *word)
 static void help_two_trays(tn_check *check, tn_diagnostic *d, const tn_ast_expr *first, const tn_ast_expr *second)
 {
     words between = words_between(check, first->node.span.file, first->node.span.end, second->node.span.begin);
-    words a = inside_tray(check, first), b = inside_tray(check, second);
+    words a = inside_call(check, first), b = inside_call(check, second);
     if (share_field(first->spec, second->spec)) {
         tn_help(check->diagnostics, d, "for one tray that is both write one specifier, which asks for each field once");
         return;
@@ -125,7 +125,7 @@ static void warn_not_tray(tn_check *check, const tn_ast_expr *part)
     tn_diagnostic *d = tn_report(check->diagnostics, W_NOT_TRAY_PART, part->node.span,
                                  "this part fits any number of trays, none of which is like that");
     const tn_ast_expr *tray = (const tn_ast_expr *)part->parts.first;
-    words inside = inside_tray(check, tray);
+    words inside = inside_call(check, tray);
     words before = words_between(check, part->node.span.file, part->node.span.begin, tray->node.span.begin);
     bool one = inside.size && !memchr(inside.text, ' ', inside.size) && !memchr(inside.text, ',', inside.size);
     if (!one || !is_word(before, "not") || part->node.span.end != tray->node.span.end) {
@@ -154,11 +154,17 @@ static void warn_counted(tn_check *check, const tn_ast_expr *expr)
     if (trays < 2 || !tn_check_wanted(check, W_NEVER_ONE_TRAY))
         return;
     const char *what = expr->kind == TN_EXPR_QUANTITY ? "quantity" : expr->kind == TN_EXPR_SUM ? "sum" : "many";
+    words inside = expr->kind == TN_EXPR_MANY ? inside_call(check, expr) : (words){0};
     tn_span keyword = expr->node.span;
-    keyword.end = keyword.begin + (uint32_t)strlen(what);
+    if (!inside.size)
+        keyword.end = keyword.begin + (uint32_t)strlen(what);
     tn_diagnostic *d = tn_report(check->diagnostics, W_NEVER_ONE_TRAY, keyword,
                                  "`%s` looks at single trays, and its part takes %u or more", what, (unsigned)trays);
-    if (expr->kind == TN_EXPR_QUANTITY) {
+    if (inside.size) {
+        tn_help(check->diagnostics, d, "stretches of several trays side by side are `repeat(%.*s, 1..)`",
+                (int)inside.size, inside.text);
+        tn_replace_with(check->diagnostics, d, "repeat(%.*s, 1..)", (int)inside.size, inside.text);
+    } else if (expr->kind == TN_EXPR_QUANTITY) {
         tn_help(check->diagnostics, d, "did you mean `occurrences`, which counts the places where it starts?");
         tn_replace_with(check->diagnostics, d, "occurrences");
     } else {

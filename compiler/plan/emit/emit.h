@@ -18,6 +18,7 @@ typedef struct tn_emit {
     uint32_t around; /* the schema before that, which comes back at the function's end */
     uint32_t begin;  /* of its code */
     uint32_t depth, stack_max;
+    bool in_circle;      /* the function is one of a circle of rules */
     size_t instructions; /* of the module so far */
 } tn_emit;
 

@@ -11,7 +11,8 @@ static void emit_total(tn_emit *emit, const tn_checked_clause *clause)
 
 uint32_t tn_emit_clause(tn_emit *emit, tn_checked_clause *clause, uint32_t schema)
 {
-    if (clause->rule)
+    bool whole = clause->kind == TN_CLAUSE_GENERATE; /* the plan as a whole is that, not only somewhere */
+    if (clause->rule && !whole)
         return clause->rule->holds;
     if (clause->function > 0)
         return clause->function - 1;
@@ -22,7 +23,7 @@ uint32_t tn_emit_clause(tn_emit *emit, tn_checked_clause *clause, uint32_t schem
         tn_emit_condition(emit, clause->condition);
     tn_emit_begin(emit, schema);
     if (clause->expr)
-        tn_emit_holds(emit, clause->expr);
+        (whole ? tn_emit_whole : tn_emit_holds)(emit, clause->expr);
     else
         emit_total(emit, clause);
     tn_emit_op(emit, clause->expr ? clause->expr->node.span : clause->span, TN_OP_RETURN, 0, 0);

@@ -187,7 +187,7 @@ void tn_emit_whole(tn_emit *emit, const tn_ast_expr *expr)
         emit_mirrored(emit, expr);
         break;
     case TN_EXPR_NAME:
-        tn_emit_op(emit, span, TN_OP_CALL, expr->rule->whole, 0);
+        tn_emit_op(emit, span, expr->again && emit->in_circle ? TN_OP_AGAIN : TN_OP_CALL, expr->rule->whole, 0);
         break;
     case TN_EXPR_AND:
     case TN_EXPR_OR:
@@ -233,6 +233,10 @@ void tn_emit_whole(tn_emit *emit, const tn_ast_expr *expr)
     case TN_EXPR_MANY:
         tn_emit_whole(emit, first_part(expr));
         tn_emit_op(emit, span, TN_OP_MANY, 0, 0);
+        break;
+    case TN_EXPR_REPEAT:
+        tn_emit_whole(emit, first_part(expr));
+        tn_emit_op(emit, span, TN_OP_REPEATED, expr->least, expr->most);
         break;
     case TN_EXPR_NEAR:
     case TN_EXPR_EVERY_NEAR:
@@ -337,29 +341,66 @@ static void emit_rule_holds(tn_emit *emit, const tn_checked_rule *rule)
         tn_emit_op(emit, body->node.span, TN_OP_SOMEWHERE, 0, 0);
 }
 
-static void emit_rule(tn_emit *emit, tn_checked_rule *rule)
+static void emit_rule_whole(tn_emit *emit, tn_checked_rule *rule)
 {
-    emit->schema = rule->schema->index;
     tn_ast_expr *body = rule->ast->body;
-    tn_emit_needs(emit, body, rule->name);
     tn_emit_begin(emit, rule->schema->index);
+    emit->in_circle = rule->circle != NULL;
     tn_emit_whole(emit, body);
+    emit->in_circle = false;
     tn_emit_op(emit, body->node.span, TN_OP_RETURN, 0, 0);
-    rule->whole = tn_emit_end(emit, rule->name, TN_FUNCTION_WHOLE);
+    rule->whole = tn_emit_end(emit, rule->name, rule->circle ? TN_FUNCTION_CIRCLE : TN_FUNCTION_WHOLE);
+}
+
+/* Is a rule of the same circle, whose judgement H is asked as it is, still to be emitted? */
+static bool waits(const tn_ast_expr *expr)
+{
+    bool waiting = expr->again && expr->rule->holds == 0; /* the circle's functions of M have the lower numbers */
+    if (expr->kind == TN_EXPR_OR)
+        for (TN_EACH(const tn_ast_expr, part, expr->parts))
+            waiting = waiting || waits(part);
+    return waiting;
+}
+
+static void emit_holds(tn_emit *emit, tn_checked_rule *rule)
+{
     tn_emit_begin(emit, rule->schema->index);
     emit_rule_holds(emit, rule);
-    tn_emit_op(emit, body->node.span, TN_OP_RETURN, 0, 0);
+    tn_emit_op(emit, rule->ast->body->node.span, TN_OP_RETURN, 0, 0);
     rule->holds = tn_emit_end(emit, rule->name, TN_FUNCTION_HOLDS);
+}
+
+/* The rules of a circle take each other's functions before these are there: they have the next numbers, in order. */
+static void emit_rules(tn_emit *emit, tn_checked_rule *const *rules, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        emit->schema = rules[i]->schema->index;
+        tn_emit_needs(emit, rules[i]->ast->body, rules[i]->name);
+    }
+    for (size_t i = 0; i < count; i++)
+        rules[i]->whole = (uint32_t)(tn_builder_count(emit->builder, TN_SECTION_FUNCTION) + i);
+    for (size_t i = 0; i < count; i++)
+        emit_rule_whole(emit, rules[i]);
+    for (size_t left = count; left > 0;) /* names that take no tray do not go round: in each pass one goes on */
+        for (size_t i = 0; i < count; i++) {
+            if (rules[i]->holds != 0 || waits(rules[i]->ast->body))
+                continue;
+            emit_holds(emit, rules[i]);
+            left--;
+        }
 }
 
 void tn_emit_rules(tn_emit *emit)
 {
     const tn_checked *checked = emit->checked;
-    for (size_t i = 0; i < checked->rule_count; i++) {
-        if (checked->order[i]->is_measure)
-            tn_emit_plan_measure(emit, checked->order[i]);
+    for (size_t i = 0; i < checked->rule_count;) {
+        tn_checked_rule *rule = checked->order[i];
+        size_t count = rule->circle ? rule->circle_size : 1;
+        if (rule->is_measure)
+            tn_emit_plan_measure(emit, rule);
         else
-            emit_rule(emit, checked->order[i]);
+            emit_rules(emit, checked->order + i, count);
+        i += count;
     }
     for (size_t i = 0; i < checked->rule_count; i++) {
         const tn_checked_rule *rule = checked->rules[i];

@@ -118,6 +118,7 @@ typedef enum tn_expr_kind {
     TN_EXPR_NEAR,       /* a beside b, a within K of b, a at least K from every b: parts are a, b and K */
     TN_EXPR_EVERY_NEAR, /* every a beside b, ...: likewise */
     TN_EXPR_WHERE,      /* a where b */
+    TN_EXPR_REPEAT,     /* repeat(a, 2..4), written out */
     TN_EXPR_MIRRORED,   /* mirrored(f, g): `names` */
     TN_EXPR_REMAINDER,  /* a sum mod a number, compared: parts are the sum, the number, the rest */
     TN_EXPR_SOME,       /* some v in FIELD (...): expanded before it is checked */
@@ -134,6 +135,8 @@ typedef enum tn_expr_kind {
     TN_EXPR_TOUCH,   /* parts: two cells */
     TN_EXPR_APART,   /* parts: from, to, and perhaps by way of */
     TN_EXPR_BROKEN,  /* already reported */
+
+    TN_EXPR_RANGE, /* 2..4, 2.. of a call: parts are the least and the most */
 
     /* sums: QUANTITY, OCCURRENCES and SUM without a condition are such too */
     TN_EXPR_NUMBER, /* a constant: `name` */
@@ -213,12 +216,14 @@ typedef struct tn_ast_expr {
     tn_sum_amount figure_amount; /* checked: sum: the dimension of what it adds up */
     tn_ast_list tests;           /* checked: tray: comparisons of its numbers */
     bool resolved;               /* checked: its name has been looked up */
-    bool settable;     /* written out: TRUE or FALSE with this value of a param, and perhaps not with another */
-    tn_ast_list idle;  /* written out: what such a value leaves out, tn_ast_expr: it is checked all the same */
-    bool from_sum;     /* checked: a condition on a sum, written out */
-    bool whole;        /* checked: speaks of the whole plan, whatever it stands in */
-    uint32_t field;    /* checked: of a sum */
-    uint32_t function; /* emitted: of what a symmetric mirrors, plus one; 0: not yet */
+    bool settable;        /* written out: TRUE or FALSE with this value of a param, and perhaps not with another */
+    tn_ast_list idle;     /* written out: what such a value leaves out, tn_ast_expr: it is checked all the same */
+    uint32_t least, most; /* repeat: how often; most 0: any number */
+    bool again;           /* checked: a name of a rule in the same circle of rules */
+    bool from_sum;        /* checked: a condition on a sum, written out */
+    bool whole;           /* checked: speaks of the whole plan, whatever it stands in */
+    uint32_t field;       /* checked: of a sum */
+    uint32_t function;    /* emitted: of what a symmetric mirrors, plus one; 0: not yet */
     uint32_t part_whole, part_holds, tally; /* emitted: of a sum's part or figure, plus one; 0: not yet */
 } tn_ast_expr;
 
@@ -322,6 +327,7 @@ typedef enum tn_clause_form {
     TN_FORM_TOTAL_RANGE,
     TN_FORM_TOTAL_COMPARE,
     TN_FORM_REQUIRE,
+    TN_FORM_GENERATE,
     TN_FORM_PRUNE,
     TN_FORM_WEIGHT,
     TN_FORM_PREFER,
@@ -481,6 +487,9 @@ tn_ast_expr *tn_ast_near_chained(tn_parse *parse, tn_span span, tn_ast_expr *fir
 tn_ast_expr *tn_ast_every_near(tn_parse *parse, tn_span span, tn_ast_expr *near);
 tn_ast_expr *tn_ast_quantifier(tn_parse *parse, tn_expr_kind kind, tn_span span, tn_ast_list names,
                                const tn_ast_word *field, tn_ast_expr *part);
+/* high: or NULL. */
+tn_ast_expr *tn_ast_range_of(tn_parse *parse, tn_span span, tn_ast_expr *low, tn_ast_expr *high);
+
 tn_ast_expr *tn_ast_call(tn_parse *parse, tn_span span, const tn_ast_word *name, tn_ast_list arguments);
 tn_ast_expr *tn_ast_open_tray(tn_parse *parse, tn_span span, tn_ast_list items); /* of an open plan */
 tn_ast_expr *tn_ast_gap(tn_parse *parse, tn_span span); /* `...` in a neighbour or pattern: optional(many(any)) */
@@ -518,6 +527,7 @@ tn_ast_clause *tn_ast_total_range(tn_parse *parse, tn_span span, tn_ast_list fie
 tn_ast_clause *tn_ast_total_compare(tn_parse *parse, tn_span span, tn_ast_list field, tn_operator op,
                                     const tn_ast_word *word, const tn_ast_word *doc);
 tn_ast_clause *tn_ast_require(tn_parse *parse, tn_span span, tn_ast_expr *expr, const tn_ast_word *doc);
+tn_ast_clause *tn_ast_generate(tn_ast_clause *require); /* of what stands there as in a `require` */
 tn_ast_clause *tn_ast_prune(tn_parse *parse, tn_span span, tn_ast_expr *expr, const tn_ast_word *name,
                             const tn_ast_word *doc);
 /* worth, name: NULL where they are not written. */

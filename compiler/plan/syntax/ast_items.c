@@ -285,6 +285,13 @@ tn_ast_clause *tn_ast_require(tn_parse *parse, tn_span span, tn_ast_expr *expr, 
     return clause;
 }
 
+tn_ast_clause *tn_ast_generate(tn_ast_clause *require)
+{
+    if (require)
+        require->form = TN_FORM_GENERATE;
+    return require;
+}
+
 tn_ast_clause *tn_ast_prune(tn_parse *parse, tn_span span, tn_ast_expr *expr, const tn_ast_word *name,
                             const tn_ast_word *doc)
 {

@@ -200,6 +200,13 @@ tn_ast_expr *tn_ast_call(tn_parse *parse, tn_span span, const tn_ast_word *name,
     return expr;
 }
 
+tn_ast_expr *tn_ast_range_of(tn_parse *parse, tn_span span, tn_ast_expr *low, tn_ast_expr *high)
+{
+    if (!low)
+        return NULL;
+    return high ? two(parse, TN_EXPR_RANGE, span, low, high) : tn_ast_of(parse, TN_EXPR_RANGE, span, tn_ast_one(low));
+}
+
 tn_ast_expr *tn_ast_open_tray(tn_parse *parse, tn_span span, tn_ast_list items)
 {
     tn_ast_expr *tray = tn_ast_tray_new(parse, span, items);

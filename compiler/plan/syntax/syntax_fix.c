@@ -550,7 +550,8 @@ static const char *likely_fix(const tn_parse *parse, const char *found, const tn
         return "expressions are joined by `and` or `or`, clauses of a library by `,`; what a tray is stands in "
                "`tray(...)`";
     if (tn_expects(e, "`prune`") && tn_expects(e, "`require`"))
-        return "a library says `trays 4..9`, `total FIELD 10m..20m`, `require RULE`, `prune RULE`, `prefer RULE`, "
+        return "a library says `trays 4..9`, `total FIELD 10m..20m`, `generate RULE`, `require RULE`, `prune RULE`, "
+               "`prefer RULE`, "
                "`weight tray(...) 3` or `allow W001`; what a tray is stands in rules, in `tray(...)`";
     if (tn_expects(e, "`rule`") && strcmp(found, "a name") == 0 && followed_by_equals(parse))
         return "a name has to follow this word: `measure NAME = ...`, `let NAME = ...`";

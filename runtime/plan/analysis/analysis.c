@@ -176,17 +176,28 @@ static uint32_t *list_functions(const tn_plan_analysis *analysis, size_t *count)
     return functions;
 }
 
-void tn_plan_analysis_mark_called(const tn_module *module, uint8_t *reached, uint32_t first, uint32_t end)
+/* One pass downwards; *more: a function above the one at hand was marked. */
+static void mark_called(const tn_module *module, uint8_t *reached, uint32_t first, uint32_t end, bool *more)
 {
+    *more = false;
     for (uint32_t f = end; f-- > first;) {
         const tn_function_record *function = &module->FUNCTION_records[f];
         for (uint32_t offset = function->code_begin; reached[f] && offset < function->code_end;) {
             tn_instruction code = tn_code_read(module->code, offset);
-            if ((code.opcode == TN_OP_CALL || code.opcode == TN_OP_MIRROR) && code.first >= first)
+            if (tn_code_calls(code.opcode) && code.first >= first && code.first < end) {
+                *more |= !reached[code.first] && code.first > f;
                 reached[code.first] = 1;
+            }
             offset += code.length;
         }
     }
+}
+
+void tn_plan_analysis_mark_called(const tn_module *module, uint8_t *reached, uint32_t first, uint32_t end)
+{
+    bool more = true;
+    while (more)
+        mark_called(module, reached, first, end, &more);
 }
 
 tn_status tn_plan_analysis_needs_length(const tn_module *module, uint32_t function, bool *needs, tn_error *error)
@@ -201,7 +212,7 @@ tn_status tn_plan_analysis_needs_length(const tn_module *module, uint32_t functi
         const tn_function_record *record = &module->FUNCTION_records[f];
         for (uint32_t offset = record->code_begin; reached[f] && offset < record->code_end;) {
             tn_instruction code = tn_code_read(module->code, offset);
-            *needs |= tn_code_compares(code.opcode) || code.opcode == TN_OP_MIRRORED;
+            *needs |= tn_code_compares(code.opcode) || code.opcode == TN_OP_MIRRORED || code.opcode == TN_OP_AGAIN;
             offset += code.length;
         }
     }
@@ -209,15 +220,35 @@ tn_status tn_plan_analysis_needs_length(const tn_module *module, uint32_t functi
     return TN_OK;
 }
 
-/* Adds to a set of rules, as bits. */
-static void add_bits(uint64_t *to, const uint64_t *from, size_t words)
+/* Adds to a set of rules, as bits. Does that change it? */
+static bool add_bits(uint64_t *to, const uint64_t *from, size_t words)
 {
-    for (size_t i = 0; i < words; i++)
+    uint64_t more = 0;
+    for (size_t i = 0; i < words; i++) {
+        more |= from[i] & ~to[i];
         to[i] |= from[i];
+    }
+    return more != 0;
+}
+
+/* Adds what the functions are made of by their callees; *more: the callee was a higher one, in a circle. */
+static void add_called(const tn_module *module, uint64_t *made, size_t words, bool *more)
+{
+    *more = false;
+    for (size_t f = 0; f < module->FUNCTION_count; f++) {
+        const tn_function_record *function = &module->FUNCTION_records[f];
+        for (uint32_t offset = function->code_begin; offset < function->code_end;) {
+            tn_instruction code = tn_code_read(module->code, offset);
+            if (tn_code_calls(code.opcode))
+                *more |=
+                    add_bits(made + f * words, made + (size_t)code.first * words, words) && code.opcode == TN_OP_AGAIN;
+            offset += code.length;
+        }
+    }
 }
 
 /* made: for each function the rules that it is or is made of, `words` words each. Callees have lower numbers: theirs
- * are known. */
+ * are known, but in circles, which are gone round. */
 static void find_made(const tn_plan_analysis *analysis, uint64_t *made, size_t words)
 {
     const tn_module *module = analysis->schema->module;
@@ -226,15 +257,9 @@ static void find_made(const tn_plan_analysis *analysis, uint64_t *made, size_t w
         made[rule->whole * words + r / 64] |= UINT64_C(1) << (r % 64);
         made[rule->holds * words + r / 64] |= UINT64_C(1) << (r % 64);
     }
-    for (size_t f = 0; f < module->FUNCTION_count; f++) {
-        const tn_function_record *function = &module->FUNCTION_records[f];
-        for (uint32_t offset = function->code_begin; offset < function->code_end;) {
-            tn_instruction code = tn_code_read(module->code, offset);
-            if (code.opcode == TN_OP_CALL || code.opcode == TN_OP_MIRROR)
-                add_bits(made + f * words, made + (size_t)code.first * words, words);
-            offset += code.length;
-        }
-    }
+    bool more = true;
+    while (more)
+        add_called(module, made, words, &more);
 }
 
 static tn_status find_uses(tn_plan_analysis *analysis, tn_error *error)
@@ -259,8 +284,8 @@ static tn_status find_uses(tn_plan_analysis *analysis, tn_error *error)
     return ok ? TN_OK : tn_fail_memory(error);
 }
 
-/* *looked_at: is the rule a comparison of sums or a `mirrored`, or made of one, that a clause of a library of the file
- * uses? */
+/* *looked_at: is the rule a comparison of sums, a `mirrored` or one that uses itself, or made of one, that a clause of
+ * a library of the file uses? */
 static tn_status is_looked_at(const tn_plan_analysis *analysis, const tn_rule_record *rule, bool *looked_at,
                               tn_error *error)
 {

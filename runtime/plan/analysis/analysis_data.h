@@ -72,11 +72,10 @@ tn_status tn_plan_analysis_confirm(const tn_plan_analysis *analysis, tn_shown_pl
 tn_status tn_plan_analysis_give_up(tn_plan_analysis *analysis, uint32_t rule, uint32_t library, const tn_error *why,
                                    tn_error *error);
 
-/* Of the functions from `first` to before `end` marks those that the marked ones call, directly or not. (Callees have
- * lower numbers: one pass finds them all.) */
+/* Of the functions from `first` to before `end` marks those that the marked ones call, directly or not. */
 void tn_plan_analysis_mark_called(const tn_module *module, uint8_t *reached, uint32_t first, uint32_t end);
 
-/* *needs: does the function, or one that it calls, compare sums or ask what is mirrored? Its automaton may then need
+/* *needs: does the function, or one that it calls, compare sums, ask what is mirrored or use itself? Its automaton may then need
  * the library's lengths. */
 tn_status tn_plan_analysis_needs_length(const tn_module *module, uint32_t function, bool *needs, tn_error *error);
 

@@ -75,7 +75,7 @@ static tn_status confirm(const tn_plan_analysis *analysis, tn_shown_plan *plan, 
     const tn_module *module = analysis->schema->module;
     const tn_function_record *record = &module->FUNCTION_records[function];
     uint32_t next = offset + tn_code_read(module->code, offset).length;
-    plan->shown = record->kind == TN_FUNCTION_WHOLE && tn_code_read(module->code, next).opcode == TN_OP_RETURN;
+    plan->shown = tn_function_is_whole(record) && tn_code_read(module->code, next).opcode == TN_OP_RETURN;
     if (!plan->shown)
         return TN_OK;
     bool holds = false;
@@ -238,6 +238,8 @@ static tn_status look_through(tn_plan_analysis *analysis, const item *it, code_p
     if (count == 0 || p->chosen[0]->function > it->holds)
         return TN_OK;
     uint32_t lowest = p->chosen[0]->function;
+    while (lowest > 0 && analysis->schema->module->FUNCTION_records[lowest - 1].kind == TN_FUNCTION_CIRCLE)
+        lowest--; /* it may lead to higher ones */
     memset(p->reached + lowest, 0, it->holds - lowest + 1);
     p->reached[it->holds] = 1;
     tn_plan_analysis_mark_called(analysis->schema->module, p->reached, lowest, it->holds + 1);

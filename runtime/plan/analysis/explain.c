@@ -4,7 +4,350 @@
 #include <stdlib.h>
 
 #include "runtime/base/array.h"
-#include "runtime/plan/analysis/explain_data.h"
+#include "runtime/plan/match/relation.h"
+#include "runtime/plan/match/vm.h"
+
+typedef struct tn_explaining {
+    tn_explanation *result;
+    tn_plan_vm *vm;
+    uint64_t ***relations; /* [tree][part * 2 + mirrored]: in places of the plan as it is, or NULL */
+    uint64_t bytes;        /* of the relations */
+    size_t words;          /* of a row */
+    unsigned depth;
+    tn_error *error;
+} tn_explaining;
+
+/* A part of a tree, read in a direction. */
+typedef struct tn_reader_of {
+    uint32_t tree, part;
+    bool mirrored;
+} tn_reader_of;
+
+static inline const tn_part *tn_part_of(const tn_explaining *e, tn_reader_of who)
+{
+    return &e->result->trees[who.tree].parts[who.part];
+}
+
+static inline tn_reader_of tn_child(tn_reader_of who, uint32_t child)
+{
+    return (tn_reader_of){who.tree, child, who.mirrored};
+}
+
+static inline bool tn_in(const tn_explaining *e, const uint64_t *relation, tn_stretch s)
+{
+    return tn_relation_row_has(relation + s.begin * e->words, s.end);
+}
+
+tn_status tn_explain_stretch(tn_explaining *e, uint32_t node, tn_stretch stretch); /* adds one where it matched */
+
+/* How a part is asked for. */
+typedef enum tn_asked {
+    TN_ASKED_AS_WRITTEN, /* somewhere in the region where the code says so, otherwise of the region as a whole */
+    TN_ASKED_SOMEWHERE,
+    TN_ASKED_SINGLES, /* the single trays that it matches */
+    TN_ASKED_STARTS,  /* the places that it matches from */
+} tn_asked;
+
+static tn_status explain_relation(tn_explaining *e, tn_reader_of who, const uint64_t **relation);
+static tn_status explain_gap(tn_explaining *e, uint32_t node, tn_gap gap);
+static tn_status explain_part(tn_explaining *e, tn_reader_of who, tn_stretch region, tn_asked asked, uint32_t parent,
+                              uint32_t *node);
+static tn_status explain_number(tn_explaining *e, tn_reader_of who, tn_stretch region, int64_t *number);
+
+/* ---- neighbours */
+
+/* A neighbour's parts from left to right on the plan as it is: mirrored, they lie the other way round. */
+typedef struct row_of_parts {
+    tn_reader_of *who;
+    const uint64_t **relation;
+    uint32_t count;
+} row_of_parts;
+
+static void row_clear(row_of_parts *row)
+{
+    free(row->who);
+    free(row->relation);
+}
+
+static tn_status row_make(tn_explaining *e, tn_reader_of neighbour, row_of_parts *row)
+{
+    const tn_part *part = tn_part_of(e, neighbour);
+    *row = (row_of_parts){malloc((part->child_count + 1) * sizeof *row->who),
+                          malloc((part->child_count + 1) * sizeof *row->relation), part->child_count};
+    if (!row->who || !row->relation)
+        return tn_fail_memory(e->error);
+    uint32_t child = part->first;
+    tn_status status = TN_OK;
+    for (uint32_t k = 0; status == TN_OK && k < row->count; k++) {
+        uint32_t at = neighbour.mirrored ? row->count - 1 - k : k;
+        row->who[at] = tn_child(neighbour, child);
+        child = tn_part_of(e, row->who[at])->next;
+        status = explain_relation(e, row->who[at], &row->relation[at]);
+    }
+    return status;
+}
+
+static bool is_optional(const tn_explaining *e, const row_of_parts *row, uint32_t k)
+{
+    return tn_part_of(e, row->who[k])->optional;
+}
+
+/* The first end at or after `from` such that part k matches [i, end) and the parts after it can go on from there. */
+static uint32_t next_cut(const tn_explaining *e, const row_of_parts *row, const uint8_t *fits, uint32_t k, uint32_t i,
+                         uint32_t places)
+{
+    const uint64_t *bits = row->relation[k] + i * e->words;
+    for (size_t end = tn_relation_row_next(bits, i + 1, e->words); end != TN_NO_BIT;
+         end = tn_relation_row_next(bits, end + 1, e->words))
+        if (fits[(size_t)(k + 1) * places + end])
+            return (uint32_t)end;
+    return UINT32_MAX;
+}
+
+/* fits[k][i]: can the parts first + k .. last - 1 fill [i, end)? */
+static void fill(const tn_explaining *e, const row_of_parts *row, uint32_t first, uint32_t last, uint32_t end,
+                 uint8_t *fits)
+{
+    uint32_t places = e->result->length + 1;
+    fits[(size_t)last * places + end] = 1;
+    for (uint32_t k = last; k-- > first;)
+        for (uint32_t i = 0; i <= end; i++)
+            fits[(size_t)k * places + i] = next_cut(e, row, fits, k, i, places) != UINT32_MAX ||
+                                           (is_optional(e, row, k) && fits[(size_t)(k + 1) * places + i]);
+}
+
+/* ---- the parts below a neighbour */
+static tn_status explain_neighbour(tn_explaining *e, tn_reader_of who, uint32_t node, tn_stretch stretch)
+{
+    row_of_parts row;
+    tn_status status = row_make(e, who, &row);
+    uint32_t places = e->result->length + 1, at = stretch.begin;
+    uint8_t *fits = calloc(((size_t)row.count + 1) * places, 1);
+    if (status == TN_OK && !fits)
+        status = tn_fail_memory(e->error);
+    if (status == TN_OK)
+        fill(e, &row, 0, row.count, stretch.end, fits);
+    for (uint32_t k = 0; status == TN_OK && k < row.count; k++) {
+        uint32_t end = next_cut(e, &row, fits, k, at, places), made;
+        if (end == UINT32_MAX) { /* left out */
+            status = explain_part(e, row.who[k], (tn_stretch){at, at}, TN_ASKED_AS_WRITTEN, node, &made);
+            if (status == TN_OK) {
+                e->result->nodes[made].absent = true;
+                e->result->nodes[made].matched = true;
+            }
+            continue;
+        }
+        status = explain_part(e, row.who[k], (tn_stretch){at, end}, TN_ASKED_AS_WRITTEN, node, &made);
+        at = end;
+    }
+    free(fits);
+    row_clear(&row);
+    return status;
+}
+
+/* How many parts from `first` on fit side by side from place i, and where they can end. */
+static uint32_t run_from(const tn_explaining *e, const row_of_parts *row, uint32_t first, uint32_t i, uint32_t limit,
+                         uint8_t *now, uint8_t *next, uint32_t *end)
+{
+    uint32_t places = e->result->length + 1, length = 0;
+    memset(now, 0, places);
+    now[i] = 1;
+    *end = i;
+    for (uint32_t k = first; k < row->count; k++) {
+        bool any = false;
+        uint32_t reached = 0;
+        memset(next, 0, places);
+        for (uint32_t p = i; p <= limit; p++) {
+            if (!now[p])
+                continue;
+            const uint64_t *bits = row->relation[k] + p * e->words;
+            for (size_t to = tn_relation_row_next(bits, p + 1, e->words); to != TN_NO_BIT && to <= limit;
+                 to = tn_relation_row_next(bits, to + 1, e->words)) {
+                reached = any ? reached : (uint32_t)to;
+                any = true;
+                next[to] = 1;
+            }
+        }
+        if (!any)
+            break;
+        memcpy(now, next, places);
+        *end = reached;
+        length++;
+    }
+    return length;
+}
+
+/* The longest run, the leftmost of several. */
+static void find_run(tn_explaining *e, const row_of_parts *row, uint32_t node, bool mirrored, uint8_t *room)
+{
+    tn_why *why = &e->result->nodes[node];
+    uint32_t places = e->result->length + 1;
+    for (uint32_t first = 0; first < row->count; first++) {
+        for (uint32_t i = why->region.begin; i < why->region.end; i++) {
+            uint32_t end, length = run_from(e, row, first, i, why->region.end, room, room + places, &end);
+            if (length <= why->run_count)
+                continue;
+            why->run_count = length;
+            why->run_first = mirrored ? row->count - first - length : first;
+            why->run = (tn_stretch){i, end};
+        }
+    }
+}
+
+static tn_status explain_no_neighbour(tn_explaining *e, tn_reader_of who, uint32_t node)
+{
+    row_of_parts row;
+    tn_status status = row_make(e, who, &row);
+    uint8_t *room = malloc(2 * ((size_t)e->result->length + 1));
+    if (status == TN_OK && !room)
+        status = tn_fail_memory(e->error);
+    if (status == TN_OK)
+        find_run(e, &row, node, who.mirrored, room);
+    tn_stretch region = e->result->nodes[node].region;
+    for (uint32_t k = 0; status == TN_OK && k < row.count; k++) {
+        uint32_t made;
+        status = explain_part(e, row.who[k], region, TN_ASKED_SOMEWHERE, node, &made);
+    }
+    free(room);
+    row_clear(&row);
+    return status;
+}
+
+/* ---- what is repeated */
+
+/* The first end behind `at` of a stretch of the relation from which `left` more lead on to the end (fits[n][i]: n of
+ * them fill [i, end)). */
+static uint32_t next_repeat(const tn_explaining *e, const uint64_t *relation, const uint8_t *fits, uint32_t left,
+                            uint32_t at, uint32_t places)
+{
+    const uint64_t *bits = relation + at * e->words;
+    size_t end = tn_relation_row_next(bits, at + 1, e->words);
+    while (end != TN_NO_BIT && !fits[(size_t)left * places + end])
+        end = end + 1 < places ? tn_relation_row_next(bits, end + 1, e->words) : TN_NO_BIT;
+    return end == TN_NO_BIT ? UINT32_MAX : (uint32_t)end;
+}
+
+/* As few as fill it, from the left each as short as it can be. */
+static tn_status explain_repeat(tn_explaining *e, tn_reader_of who, uint32_t node, tn_stretch stretch)
+{
+    const tn_part *part = tn_part_of(e, who);
+    tn_reader_of each = tn_child(who, part->first);
+    uint32_t least = part->least, places = e->result->length + 1, most = stretch.end - stretch.begin, count = 0;
+    const uint64_t *relation;
+    tn_status status = explain_relation(e, each, &relation);
+    uint8_t *fits = calloc((size_t)most + 1, places);
+    if (status == TN_OK && !fits)
+        status = tn_fail_memory(e->error);
+    if (status == TN_OK)
+        fits[stretch.end] = 1;
+    while (status == TN_OK && count < most && !(count >= least && fits[(size_t)count * places + stretch.begin])) {
+        for (uint32_t i = stretch.begin; i < stretch.end; i++)
+            fits[((size_t)count + 1) * places + i] = next_repeat(e, relation, fits, count, i, places) != UINT32_MAX;
+        count++;
+    }
+    for (uint32_t at = stretch.begin; status == TN_OK && count > 0;) {
+        uint32_t end = next_repeat(e, relation, fits, --count, at, places), made;
+        status =
+            end == UINT32_MAX ? TN_OK : explain_part(e, each, (tn_stretch){at, end}, TN_ASKED_AS_WRITTEN, node, &made);
+        at = end;
+    }
+    free(fits);
+    return status;
+}
+
+/* ---- distances, and what lies around */
+
+#define GAPS_MAX 64u /* shown of one distance */
+
+typedef struct looking {
+    tn_explaining *e;
+    tn_reader_of separator;
+    const uint64_t *source, *destination, *between;
+    uint32_t node;
+    bool near;     /* is one destination whose gap fits enough? */
+    bool overlaps; /* do destinations that share a tray with the source count? */
+} looking;
+
+/* What separates a source and a destination: nothing, at the source's start, where they overlap (M of `distance`). */
+static tn_stretch between(tn_stretch source, tn_stretch destination)
+{
+    if (destination.end <= source.begin)
+        return (tn_stretch){destination.end, source.begin};
+    if (source.end <= destination.begin)
+        return (tn_stretch){source.end, destination.begin};
+    return (tn_stretch){source.begin, source.begin};
+}
+
+static tn_status add_gap(const looking *l, tn_stretch source, tn_stretch destination)
+{
+    tn_gap gap = {.source = source, .destination = destination, .between = between(source, destination)};
+    if (l->e->result->nodes[l->node].gap_count >= GAPS_MAX)
+        return TN_OK;
+    gap.fits = tn_in(l->e, l->between, gap.between);
+    tn_status status = explain_number(l->e, l->separator, gap.between, &gap.number);
+    return status == TN_OK ? explain_gap(l->e, l->node, gap) : status;
+}
+
+static bool overlap(tn_stretch a, tn_stretch b)
+{
+    return a.begin < b.end && b.begin < a.end;
+}
+
+/* Of a source: the first destination whose gap decides; or, where none does, the nearest on either side. */
+static tn_status look_from(const looking *l, tn_stretch source)
+{
+    uint32_t length = l->e->result->length;
+    tn_stretch left = {0, 0}, right = {0, 0};
+    for (uint32_t a = 0; a < length; a++) {
+        const uint64_t *row = l->destination + a * l->e->words;
+        for (size_t b = tn_relation_row_next(row, a + 1, l->e->words); b != TN_NO_BIT;
+             b = tn_relation_row_next(row, b + 1, l->e->words)) {
+            tn_stretch destination = {a, (uint32_t)b};
+            if (!l->overlaps && overlap(source, destination))
+                continue;
+            if (tn_in(l->e, l->between, between(source, destination)) == l->near)
+                return add_gap(l, source, destination);
+            if (destination.end <= source.begin && (left.end == 0 || destination.end > left.end))
+                left = destination;
+            if (destination.begin >= source.end && right.end == 0)
+                right = destination;
+        }
+    }
+    tn_status status = left.end ? add_gap(l, source, left) : TN_OK;
+    return status == TN_OK && right.end ? add_gap(l, source, right) : status;
+}
+
+static tn_status explain_distance(tn_explaining *e, tn_reader_of who, uint32_t node, tn_stretch stretch)
+{
+    const tn_part *part = tn_part_of(e, who);
+    tn_reader_of source = tn_child(who, part->first);
+    tn_reader_of destination = tn_child(who, tn_part_of(e, source)->next);
+    looking l = {.e = e,
+                 .separator = tn_child(who, tn_part_of(e, destination)->next),
+                 .node = node,
+                 .near = part->kind == TN_PART_NEAR,
+                 .overlaps = part->kind == TN_PART_DISTANCE};
+    tn_status status = explain_relation(e, source, &l.source);
+    if (status == TN_OK)
+        status = explain_relation(e, destination, &l.destination);
+    if (status == TN_OK)
+        status = explain_relation(e, l.separator, &l.between);
+    if (status != TN_OK)
+        return status;
+    bool matched = e->result->nodes[node].matched;
+    uint32_t made;
+    status = explain_part(e, source, stretch, matched ? TN_ASKED_AS_WRITTEN : TN_ASKED_SOMEWHERE, node, &made);
+    tn_stretch plan = {0, e->result->length};
+    uint32_t targets;
+    if (status == TN_OK)
+        status = explain_part(e, destination, plan, TN_ASKED_SOMEWHERE, node, &targets);
+    if (status != TN_OK || matched)
+        return status == TN_OK ? look_from(&l, stretch) : status;
+    tn_why found = e->result->nodes[made];
+    for (uint32_t i = 0; status == TN_OK && i < found.stretch_count; i++)
+        status = look_from(&l, e->result->stretches[found.stretch_first + i]);
+    return status;
+}
 
 #define RELATION_BYTES_MAX (UINT64_C(1) << 30)
 
@@ -24,7 +367,7 @@ tn_status tn_explain_stretch(tn_explaining *e, uint32_t node, tn_stretch stretch
     return TN_OK;
 }
 
-tn_status tn_explain_gap(tn_explaining *e, uint32_t node, tn_gap gap)
+static tn_status explain_gap(tn_explaining *e, uint32_t node, tn_gap gap)
 {
     tn_explanation *result = e->result;
     if (!tn_array_reserve_from(&result->gaps, &result->gap_capacity, 16, result->gap_count, 1, sizeof *result->gaps))
@@ -62,7 +405,8 @@ static tn_status add_node(tn_explaining *e, tn_reader_of who, tn_stretch region,
     return TN_OK;
 }
 
-tn_status tn_explain_tree(tn_explaining *e, uint32_t function, uint32_t *tree)
+/* The tree of a function, read once. */
+static tn_status explain_tree(tn_explaining *e, uint32_t function, uint32_t *tree)
 {
     tn_explanation *result = e->result;
     for (*tree = 0; *tree < result->tree_count; ++*tree)
@@ -108,7 +452,8 @@ static tn_status keep_relation(tn_explaining *e, const uint64_t *from, bool mirr
     return TN_OK;
 }
 
-tn_status tn_explain_relation(tn_explaining *e, tn_reader_of who, const uint64_t **relation)
+/* The relation M of a part (H for parts judged as a region), found once. */
+static tn_status explain_relation(tn_explaining *e, tn_reader_of who, const uint64_t **relation)
 {
     uint64_t **kept = &e->relations[who.tree][2 * (size_t)who.part + who.mirrored];
     tn_status status = TN_OK;
@@ -183,7 +528,7 @@ static tn_status add_singles(tn_explaining *e, const uint64_t *relation, tn_stre
 static tn_status find(tn_explaining *e, tn_reader_of who, tn_asked asked, uint32_t node)
 {
     const uint64_t *relation;
-    tn_status status = tn_explain_relation(e, who, &relation);
+    tn_status status = explain_relation(e, who, &relation);
     if (status != TN_OK)
         return status;
     tn_stretch region = e->result->nodes[node].region;
@@ -218,7 +563,7 @@ static tn_status sum_of(tn_explaining *e, tn_reader_of who, tn_stretch region, i
     const tn_schema *schema = e->result->schema;
     const tn_part *part = tn_part_of(e, who);
     const uint64_t *relation;
-    tn_status status = tn_explain_relation(e, tn_child(who, part->first), &relation);
+    tn_status status = explain_relation(e, tn_child(who, part->first), &relation);
     *number = 0;
     for (uint32_t k = region.begin; status == TN_OK && k < region.end; k++) {
         tn_stretch found;
@@ -235,11 +580,12 @@ static tn_status sum_of(tn_explaining *e, tn_reader_of who, tn_stretch region, i
     return status;
 }
 
-tn_status tn_explain_number(tn_explaining *e, tn_reader_of who, tn_stretch region, int64_t *number)
+/* What a quantity, sum or occurrences counts in a stretch; TN_NO_NUMBER for other parts. */
+static tn_status explain_number(tn_explaining *e, tn_reader_of who, tn_stretch region, int64_t *number)
 {
     *number = TN_NO_NUMBER;
     while (tn_part_of(e, who)->kind == TN_PART_RULE) { /* a separator by its name */
-        tn_status status = tn_explain_tree(e, tn_part_of(e, who)->function, &who.tree);
+        tn_status status = explain_tree(e, tn_part_of(e, who)->function, &who.tree);
         if (status != TN_OK)
             return status;
         who.part = 0;
@@ -258,7 +604,7 @@ static tn_status explain_children(tn_explaining *e, tn_reader_of who, tn_stretch
     uint32_t child = tn_part_of(e, who)->first;
     while (status == TN_OK && child != TN_NO_PART) {
         uint32_t made;
-        status = tn_explain_part(e, tn_child(who, child), region, asked, node, &made);
+        status = explain_part(e, tn_child(who, child), region, asked, node, &made);
         child = e->result->trees[who.tree].parts[child].next;
     }
     return status;
@@ -268,10 +614,10 @@ static tn_status explain_rule(tn_explaining *e, tn_reader_of who, tn_stretch reg
 {
     uint32_t made;
     tn_reader_of body = {.mirrored = who.mirrored};
-    tn_status status = tn_explain_tree(e, tn_part_of(e, who)->function, &body.tree);
+    tn_status status = explain_tree(e, tn_part_of(e, who)->function, &body.tree);
     if (status != TN_OK)
         return status;
-    return tn_explain_part(e, body, region, asked, node, &made);
+    return explain_part(e, body, region, asked, node, &made);
 }
 
 /* The half that matched is shown, or else both. */
@@ -281,13 +627,13 @@ static tn_status explain_symmetric(tn_explaining *e, tn_reader_of who, tn_stretc
     uint32_t made;
     bool matched = e->result->nodes[node].matched;
     tn_reader_of half = tn_child(who, tn_part_of(e, who)->first);
-    tn_status status = tn_explain_relation(e, half, &relation);
+    tn_status status = explain_relation(e, half, &relation);
     if (status == TN_OK && (!matched || tn_in(e, relation, region)))
-        status = tn_explain_part(e, half, region, asked, node, &made);
+        status = explain_part(e, half, region, asked, node, &made);
     if (status != TN_OK || (matched && tn_in(e, relation, region)))
         return status;
     half.mirrored = !half.mirrored;
-    return tn_explain_part(e, half, region, asked, node, &made);
+    return explain_part(e, half, region, asked, node, &made);
 }
 
 /* What the stretch is; and what else it is to be, on the first that is so. */
@@ -297,13 +643,13 @@ static tn_status explain_where(tn_explaining *e, tn_reader_of who, tn_stretch at
     tn_reader_of first = tn_child(who, tn_part_of(e, who)->first);
     tn_reader_of second = tn_child(who, tn_part_of(e, first)->next);
     uint32_t found, made;
-    tn_status status = tn_explain_part(e, first, at, matched ? TN_ASKED_AS_WRITTEN : TN_ASKED_SOMEWHERE, node, &found);
+    tn_status status = explain_part(e, first, at, matched ? TN_ASKED_AS_WRITTEN : TN_ASKED_SOMEWHERE, node, &found);
     if (status != TN_OK)
         return status;
     const tn_why *why = &e->result->nodes[found];
     if (!matched && why->stretch_count > 0)
         at = e->result->stretches[why->stretch_first];
-    return matched || why->stretch_count > 0 ? tn_explain_part(e, second, at, TN_ASKED_AS_WRITTEN, node, &made) : TN_OK;
+    return matched || why->stretch_count > 0 ? explain_part(e, second, at, TN_ASKED_AS_WRITTEN, node, &made) : TN_OK;
 }
 
 static void find_closest(tn_explaining *e, tn_reader_of who, uint32_t node)
@@ -334,8 +680,8 @@ static tn_status explain_below(tn_explaining *e, tn_reader_of who, uint32_t node
         if (!why.matched)
             find_closest(e, who, node);
         return TN_OK;
-    case TN_PART_RULE:
-        return explain_rule(e, who, at, same, node);
+    case TN_PART_RULE: /* one that uses itself is opened on its own stretch alone: elsewhere it would go on for ever */
+        return part->again && !(why.matched && why.whole) ? TN_OK : explain_rule(e, who, at, same, node);
     case TN_PART_AND:
     case TN_PART_OR:
         return explain_children(e, who, at, same, node);
@@ -344,23 +690,26 @@ static tn_status explain_below(tn_explaining *e, tn_reader_of who, uint32_t node
     case TN_PART_SYMMETRIC:
         return explain_symmetric(e, who, at, asked, node);
     case TN_PART_NEIGHBOUR:
-        return why.matched ? tn_explain_neighbour(e, who, node, at) : tn_explain_no_neighbour(e, who, node);
+        return why.matched ? explain_neighbour(e, who, node, at) : explain_no_neighbour(e, who, node);
     case TN_PART_QUANTITY:
     case TN_PART_SUM:
     case TN_PART_OCCURRENCES: {
-        tn_status status = tn_explain_number(e, who, at, &why.number);
+        tn_status status = explain_number(e, who, at, &why.number);
         e->result->nodes[node].number = why.number;
         if (status != TN_OK)
             return status;
-        return tn_explain_part(e, tn_child(who, part->first), at,
-                               part->kind == TN_PART_OCCURRENCES ? TN_ASKED_STARTS : TN_ASKED_SINGLES, node, &made);
+        return explain_part(e, tn_child(who, part->first), at,
+                            part->kind == TN_PART_OCCURRENCES ? TN_ASKED_STARTS : TN_ASKED_SINGLES, node, &made);
     }
     case TN_PART_MANY:
-        return tn_explain_part(e, tn_child(who, part->first), at, TN_ASKED_SINGLES, node, &made);
+        return explain_part(e, tn_child(who, part->first), at, TN_ASKED_SINGLES, node, &made);
+    case TN_PART_REPEAT:
+        return why.matched ? explain_repeat(e, who, node, at)
+                           : explain_part(e, tn_child(who, part->first), at, TN_ASKED_SOMEWHERE, node, &made);
     case TN_PART_DISTANCE:
     case TN_PART_NEAR:
     case TN_PART_FAR:
-        return tn_explain_distance(e, who, node, at);
+        return explain_distance(e, who, node, at);
     case TN_PART_WHERE:
         return explain_where(e, who, at, node);
     case TN_PART_COMPARISON:
@@ -371,8 +720,9 @@ static tn_status explain_below(tn_explaining *e, tn_reader_of who, uint32_t node
     return TN_OK;
 }
 
-tn_status tn_explain_part(tn_explaining *e, tn_reader_of who, tn_stretch region, tn_asked asked, uint32_t parent,
-                          uint32_t *node)
+/* Adds a node for a part, under `parent` (TN_NO_WHY: the root), with everything below it. *node: its index. */
+static tn_status explain_part(tn_explaining *e, tn_reader_of who, tn_stretch region, tn_asked asked, uint32_t parent,
+                              uint32_t *node)
 {
     tn_status status = tn_watch_check(e->result->schema->module->watch, e->error);
     if (status == TN_OK)
@@ -415,10 +765,10 @@ tn_status tn_explain(const tn_schema *schema, uint32_t function, const tn_tray *
     if (status == TN_OK)
         status = tn_plan_vm_plan(e.vm, trays, length, error);
     if (status == TN_OK)
-        status = tn_explain_tree(&e, function, &tree);
+        status = explain_tree(&e, function, &tree);
     if (status == TN_OK)
-        status = tn_explain_part(&e, (tn_reader_of){0}, (tn_stretch){0, (uint32_t)length}, TN_ASKED_AS_WRITTEN,
-                                 TN_NO_WHY, &root);
+        status = explain_part(&e, (tn_reader_of){0}, (tn_stretch){0, (uint32_t)length}, TN_ASKED_AS_WRITTEN, TN_NO_WHY,
+                              &root);
     finish(&e);
     return status;
 }

@@ -14,7 +14,7 @@
 #include "runtime/base/random.h"
 #include "runtime/plan/library/hash_text.h"
 #include "runtime/plan/library/library_data.h"
-#include "runtime/plan/match/code_hash.h"
+#include "runtime/plan/match/same.h"
 #include "runtime/plan/schema/sum.h"
 
 __extension__ typedef unsigned __int128 wide;

@@ -15,4 +15,10 @@ bool tn_condition_holds(const tn_module *module, uint32_t function, int64_t n);
 tn_status tn_condition_period(const tn_module *module, uint32_t function, int64_t unit, uint64_t limit,
                               uint64_t *threshold, uint64_t *period, tn_error *error);
 
+#define TN_CONDITION_TEXT_MAX 160
+
+/* Writes "n > 1 and not n mod 3 = 1" for a condition function of a verified module; "..." where that would be too long.
+ */
+void tn_condition_text(const tn_module *module, uint32_t function, char text[TN_CONDITION_TEXT_MAX]);
+
 #endif

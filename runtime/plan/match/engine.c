@@ -1,6 +1,7 @@
 /* Verifies and lists the rules and libraries of a module, and the code of rules and conditions. */
 #include "runtime/module/engine.h"
-#include "runtime/plan/match/condition_text.h"
+#include "runtime/module/code.h"
+#include "runtime/plan/match/condition.h"
 #include "runtime/plan/schema/list.h"
 #include "runtime/plan/schema/sum.h"
 
@@ -8,7 +9,9 @@
 
 static bool is_function(const tn_module *module, uint32_t function, tn_function_kind kind, uint32_t schema)
 {
-    return module->FUNCTION_records[function].kind == kind && module->FUNCTION_records[function].schema == schema;
+    const tn_function_record *record = &module->FUNCTION_records[function];
+    bool fits = kind == TN_FUNCTION_WHOLE ? tn_function_is_whole(record) : record->kind == kind;
+    return fits && record->schema == schema;
 }
 
 static tn_status check_rules(const tn_checker *checker)
@@ -83,6 +86,18 @@ static tn_status check_call(const tn_checker *checker, const tn_instruction *ins
     return TN_OK;
 }
 
+/* A circle is closed: no other function calls into it in this way. */
+static tn_status check_circle(const tn_checker *checker, const tn_instruction *instruction)
+{
+    uint32_t callee = (uint32_t)instruction->first;
+    const tn_function_record *function = &checker->module->FUNCTION_records[callee];
+    if (function_of(checker)->kind != TN_FUNCTION_CIRCLE || function->kind != TN_FUNCTION_CIRCLE)
+        return tn_refuse(checker, "takes function %u again, and is not in a circle with it", callee);
+    if (function->schema != function_of(checker)->schema)
+        return tn_refuse(checker, "takes function %u again, which is of another schema", callee);
+    return TN_OK;
+}
+
 static tn_status check_condition_kind(const tn_checker *checker, int64_t condition)
 {
     if (checker->module->FUNCTION_records[condition].kind != TN_FUNCTION_CONDITION)
@@ -120,6 +135,11 @@ static tn_status check_numbers(const tn_checker *checker, const tn_instruction *
 {
     if (instruction->opcode == TN_OP_REMAINDER && (instruction->first <= 0 || instruction->second < 0))
         return tn_refuse(checker, "a remainder needs a divisor above 0 and a rest not below 0");
+    bool times = instruction->opcode == TN_OP_REPEATED;
+    if (times &&
+        (instruction->first < 1 || instruction->first > TN_REPEATED_MAX || instruction->second > TN_REPEATED_MAX ||
+         (instruction->second != 0 && instruction->second < instruction->first)))
+        return tn_refuse(checker, "a stretch is cut into 1 to %u others", TN_REPEATED_MAX);
     return TN_OK;
 }
 
@@ -146,7 +166,6 @@ static void list_rules(tn_lister *lister)
 
 static void list_library(tn_lister *lister, size_t index)
 {
-    static const char *const kinds[] = {"require", "total", "prune"};
     const tn_library_record *library = &lister->module->LIBRARY_records[index];
     fprintf(lister->out, "\nlibrary %zu  ", index);
     tn_list_name(lister, library->name);
@@ -158,7 +177,7 @@ static void list_library(tn_lister *lister, size_t index)
     tn_list_place(lister, library->file, library->begin);
     for (uint32_t i = 0; i < library->clause_count; i++) {
         const tn_clause_record *clause = &lister->module->CLAUSE_records[library->clause_first + i];
-        fprintf(lister->out, "  %s ", kinds[clause->kind]);
+        fprintf(lister->out, "  %s ", tn_names_CLAUSE_KIND[clause->kind]);
         tn_list_name(lister, clause->name);
         tn_list_doc(lister, clause->doc);
         fprintf(lister->out, ": function %u", clause->holds);
@@ -236,6 +255,7 @@ static const tn_operand_rules operands[] = {
     {TN_OPERANDS_SPEC, check_spec, list_spec}, {TN_OPERANDS_FUNC, check_call, NULL},
     {TN_OPERANDS_COND, check_condition, NULL}, {TN_OPERANDS_FIELD_COND, check_sum, NULL},
     {TN_OPERANDS_INT2, check_numbers, NULL},   {TN_OPERANDS_FIELD, check_field, list_field},
+    {TN_OPERANDS_CIRCLE, check_circle, NULL},
 };
 
 extern const tn_engine tn_engine_match;

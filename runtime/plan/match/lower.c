@@ -2,7 +2,9 @@
 #include "runtime/plan/match/lower.h"
 
 #include <stdlib.h>
+#include <string.h>
 
+#include "runtime/automata/equations.h"
 #include "runtime/automata/marked.h"
 #include "runtime/automata/numbering.h"
 #include "runtime/module/code.h"
@@ -160,6 +162,7 @@ static void term_clear(tn_term *term)
         tn_dfa_free(term->stack[--term->depth]);
     free(term->stack);
     free(term->nodes);
+    *term = (tn_term){0};
 }
 
 static tn_status term_read(const tn_module *module, uint32_t function, bool plain, tn_term *term, tn_error *error)
@@ -246,6 +249,8 @@ static tn_status lower_relation(const tn_lowering *lowering, const tn_node *node
     }
     case TN_OP_MANY:
         return tn_marked_many(marked, in[0], out, error);
+    case TN_OP_REPEATED:
+        return tn_marked_repeat(marked, in[0], first, second, out, error);
     case TN_OP_QUANTITY:
         return tn_relate_count(marked, classes, in[0], TN_TALLY_SINGLES, first, TN_NO_FIELD, out, error);
     case TN_OP_SUM:
@@ -332,6 +337,7 @@ static tn_status lower_node(tn_lowering *lowering, const tn_node *node, uint32_t
     switch (node->code.opcode) {
     case TN_OP_CALL:
     case TN_OP_MIRROR:
+    case TN_OP_AGAIN:
         *out = tn_dfa_share(called(lowering, node, form, &wanted)->dfa);
         return TN_OK;
     case TN_OP_AND:
@@ -380,6 +386,341 @@ static tn_status lower_term(tn_lowering *lowering, tn_term *term, uint32_t form,
     }
     *out = term->stack[--term->depth];
     return TN_OK;
+}
+
+/* ---- circles of functions */
+
+typedef struct tn_circle {
+    uint32_t *members; /* functions; owned */
+    uint32_t count, form;
+    tn_term *terms;   /* [count]: their code */
+    tn_linear *sides; /* [count]: of the equations */
+    tn_dfa **empties; /* [count]: the empty stretches of each relation, or NULL */
+    bool left, right; /* does an unknown stand before something, behind something? */
+    bool linear;      /* and nowhere else? */
+    tn_linear *stack; /* of the function at hand */
+    size_t depth, room;
+} tn_circle;
+
+static uint32_t circle_number(const tn_circle *circle, uint32_t function)
+{
+    uint32_t i = 0;
+    while (i < circle->count && circle->members[i] != function)
+        i++;
+    return i;
+}
+
+static void circle_clear(tn_circle *circle)
+{
+    for (uint32_t i = 0; i < circle->count; i++) {
+        if (circle->terms)
+            term_clear(&circle->terms[i]);
+        if (circle->sides)
+            tn_linear_clear(&circle->sides[i]);
+        if (circle->empties)
+            tn_dfa_free(circle->empties[i]);
+    }
+    while (circle->depth > 0)
+        tn_linear_clear(&circle->stack[--circle->depth]);
+    free(circle->members);
+    free(circle->terms);
+    free(circle->sides);
+    free(circle->empties);
+    free(circle->stack);
+    *circle = (tn_circle){0};
+}
+
+/* Reads a function, and those that its circle leads to. */
+static tn_status circle_read(const tn_lowering *lowering, uint32_t function, uint32_t form, tn_circle *circle,
+                             tn_error *error)
+{
+    size_t functions = lowering->module->FUNCTION_count;
+    *circle = (tn_circle){.form = form, .linear = true};
+    circle->members = calloc(functions + 1, sizeof *circle->members);
+    circle->terms = calloc(functions + 1, sizeof *circle->terms);
+    if (!circle->members || !circle->terms)
+        return tn_fail_memory(error);
+    circle->members[circle->count++] = function;
+    for (uint32_t i = 0; i < circle->count; i++) {
+        tn_term *term = &circle->terms[i];
+        tn_status status = term_read(lowering->module, circle->members[i], false, term, error);
+        if (status != TN_OK)
+            return status;
+        for (size_t n = 0; n < term->count; n++) {
+            uint32_t callee = (uint32_t)term->nodes[n].code.first;
+            if (term->nodes[n].code.opcode == TN_OP_AGAIN && circle_number(circle, callee) == circle->count)
+                circle->members[circle->count++] = callee;
+        }
+        circle->room = term->count > circle->room ? term->count : circle->room;
+    }
+    circle->sides = calloc(circle->count, sizeof *circle->sides);
+    circle->empties = calloc(circle->count, sizeof *circle->empties);
+    circle->stack = calloc(circle->room + 1, sizeof *circle->stack);
+    return circle->sides && circle->empties && circle->stack ? TN_OK : tn_fail_memory(error);
+}
+
+static tn_status replace(tn_status status, tn_dfa **place, tn_dfa *made)
+{
+    if (status == TN_OK) {
+        tn_dfa_free(*place);
+        *place = made;
+    }
+    return status;
+}
+
+static tn_status join_rest(tn_lowering *lowering, tn_linear *side, tn_dfa *with, tn_dfa_operation operation,
+                           tn_error *error)
+{
+    tn_dfa *made = NULL;
+    if (!side->rest && operation == TN_DFA_OR)
+        side->rest = tn_dfa_share(with);
+    if (!side->rest || side->rest == with)
+        return TN_OK;
+    tn_status status = tn_dfa_product(side->rest, with, operation, "rule", &lowering->bounds, &made, error);
+    return replace(status, &side->rest, made);
+}
+
+/* The lower of the two topmost becomes both in their order; of one of them all is known, or the equation is not linear.
+ */
+static tn_status circle_chain(tn_lowering *lowering, tn_circle *circle, tn_error *error)
+{
+    bool reversed = circle->form & FORM_REVERSED;
+    tn_linear *lower = &circle->stack[circle->depth - 2], *upper = lower + 1;
+    tn_linear *before = reversed ? upper : lower, *behind = reversed ? lower : upper;
+    bool left = tn_linear_has_unknowns(before), right = tn_linear_has_unknowns(behind);
+    circle->left |= left;
+    circle->right |= right;
+    circle->linear &= !(circle->left && circle->right);
+    tn_linear *kept = left ? before : behind, *other = left ? behind : before;
+    tn_status status = TN_OK;
+    if (circle->linear && other->rest)
+        status = tn_linear_chain(&lowering->marked, kept, other->rest, !left, error);
+    else if (circle->linear) { /* nothing is there to stand beside */
+        tn_linear_clear(kept);
+        status = tn_linear_make(&lowering->marked, circle->count, TN_NO_STATE, kept, error);
+    }
+    tn_linear result = *kept;
+    *kept = (tn_linear){0};
+    tn_linear_clear(other);
+    *lower = result;
+    circle->depth--;
+    return status;
+}
+
+/* An instruction whose operands have no unknowns. */
+static tn_status circle_known(tn_lowering *lowering, tn_circle *circle, const tn_node *node, uint8_t pops,
+                              tn_error *error)
+{
+    tn_dfa *in[TN_OPERANDS_MAX] = {0}, *made = NULL;
+    tn_status status = TN_OK;
+    for (uint8_t i = pops; i-- > 0;) {
+        tn_linear *operand = &circle->stack[--circle->depth];
+        in[i] = operand->rest;
+        operand->rest = NULL;
+        tn_linear_clear(operand);
+        if (!in[i] && status == TN_OK)
+            status = tn_dfa_constant(lowering->marked.letters, false, &in[i], error);
+    }
+    if (status == TN_OK)
+        status = lower_node(lowering, node, circle->form, in, &made, error);
+    for (uint8_t i = 0; i < pops; i++)
+        tn_dfa_free(in[i]);
+    if (status != TN_OK)
+        return status;
+    tn_linear *result = &circle->stack[circle->depth];
+    status = tn_linear_make(&lowering->marked, circle->count, TN_NO_STATE, result, error);
+    result->rest = made;
+    circle->depth++;
+    return status;
+}
+
+static tn_status circle_node(tn_lowering *lowering, tn_circle *circle, const tn_node *node, tn_error *error)
+{
+    uint8_t pops = tn_code_effect((uint8_t)node->code.opcode).pops;
+    tn_linear *top = &circle->stack[circle->depth];
+    bool unknown = false;
+    for (uint8_t i = 1; i <= pops; i++)
+        unknown |= tn_linear_has_unknowns(top - i);
+    if (node->code.opcode == TN_OP_AGAIN && !is_disabled(lowering, node->offset)) {
+        uint32_t number = circle_number(circle, (uint32_t)node->code.first);
+        circle->depth++;
+        tn_status status = tn_linear_make(&lowering->marked, circle->count, number, top, error);
+        if (status == TN_OK && circle->empties[number])
+            top->rest = tn_dfa_share(circle->empties[number]);
+        return status;
+    }
+    if (!unknown)
+        return circle_known(lowering, circle, node, pops, error);
+    tn_status status = TN_OK;
+    switch (is_disabled(lowering, node->offset) ? TN_OP_RETURN : node->code.opcode) {
+    case TN_OP_OR:
+        status = tn_linear_or(&lowering->marked, top - 2, top - 1, error);
+        tn_linear_clear(top - 1);
+        circle->depth--;
+        return status;
+    case TN_OP_CHAIN:
+        return circle_chain(lowering, circle, error);
+    case TN_OP_NONEMPTY: /* the unknowns are without empty stretches */
+        return join_rest(lowering, top - 1, lowering->marked.nonempty, TN_DFA_AND, error);
+    case TN_OP_OPTIONAL:
+        return join_rest(lowering, top - 1, lowering->marked.empty, TN_DFA_OR, error);
+    default:
+        circle->linear = false;
+        return TN_OK;
+    }
+}
+
+/* The right-hand side of each equation; stops where one is not linear. */
+static tn_status circle_sides(tn_lowering *lowering, tn_circle *circle, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && circle->linear && i < circle->count; i++) {
+        const tn_term *term = &circle->terms[i];
+        for (size_t n = 0; status == TN_OK && circle->linear && n < term->count; n++) {
+            status = circle_node(lowering, circle, &term->nodes[n], error);
+            if (status != TN_OK && error)
+                error->code_offset = term->nodes[n].offset;
+        }
+        if (status != TN_OK || !circle->linear)
+            break;
+        tn_linear_clear(&circle->sides[i]);
+        circle->sides[i] = circle->stack[--circle->depth];
+    }
+    return status;
+}
+
+static bool is_nothing(const tn_dfa *dfa)
+{
+    return dfa->states == 1 && !dfa->accept[0];
+}
+
+/* *more: a relation has empty stretches that were not known of. */
+static tn_status circle_empties(tn_lowering *lowering, tn_circle *circle, bool *more, tn_error *error)
+{
+    tn_status status = TN_OK;
+    *more = false;
+    for (uint32_t i = 0; status == TN_OK && i < circle->count; i++) {
+        tn_dfa *empty = NULL, **known = &circle->empties[i];
+        if (!circle->sides[i].rest)
+            continue;
+        status = tn_dfa_product(circle->sides[i].rest, lowering->marked.empty, TN_DFA_AND, "rule", &lowering->bounds,
+                                &empty, error);
+        bool news = status == TN_OK && (*known ? !tn_dfa_equal(*known, empty) : !is_nothing(empty));
+        *more |= news;
+        if (news)
+            replace(TN_OK, known, empty);
+        else
+            tn_dfa_free(empty);
+    }
+    return status;
+}
+
+static tn_lowered *circle_lowered(const tn_lowering *lowering, const tn_circle *circle, uint32_t i)
+{
+    return &lowering->lowered[circle->members[i] * FORM_COUNT + circle->form];
+}
+
+/* By elimination, where every unknown stands at the same end of what it stands in. */
+static tn_status circle_solve(tn_lowering *lowering, tn_circle *circle, tn_error *error)
+{
+    bool more = true;
+    tn_status status = TN_OK;
+    while (status == TN_OK && circle->linear && more) {
+        status = circle_sides(lowering, circle, error);
+        if (status == TN_OK && circle->linear)
+            status = circle_empties(lowering, circle, &more, error);
+    }
+    if (status != TN_OK || !circle->linear)
+        return status;
+    tn_dfa **found = calloc(circle->count, sizeof(tn_dfa *));
+    if (!found)
+        return tn_fail_memory(error);
+    status = tn_linear_solve(&lowering->marked, circle->sides, circle->count, circle->left, found, error);
+    for (uint32_t i = 0; i < circle->count; i++) {
+        tn_linear all = {.rest = found[i]};
+        if (status == TN_OK && circle->empties[i])
+            status = join_rest(lowering, &all, circle->empties[i], TN_DFA_OR, error);
+        if (status == TN_OK)
+            circle_lowered(lowering, circle, i)->dfa = all.rest;
+        else
+            tn_dfa_free(all.rest);
+    }
+    free(found);
+    return status;
+}
+
+/* Stretches of at most so many trays. */
+static tn_status lower_short(tn_lowering *lowering, uint32_t longest, tn_dfa **out, tn_error *error)
+{
+    uint8_t *holds = malloc((size_t)longest + 2);
+    if (!holds)
+        return tn_fail_memory(error);
+    memset(holds, 1, (size_t)longest + 1);
+    holds[longest + 1] = 0;
+    tn_periodic_set set = {.threshold = longest + UINT64_C(1), .period = 1, .holds = holds};
+    tn_status status =
+        tn_marked_count(&lowering->marked, lowering->marked.single, TN_TALLY_SINGLES, &set, NULL, out, error);
+    free(holds);
+    return status;
+}
+
+/* Each function once, by what the others are so far. */
+static tn_status circle_round(tn_lowering *lowering, tn_circle *circle, const tn_dfa *within, bool *changed,
+                              tn_error *error)
+{
+    tn_status status = TN_OK;
+    *changed = false;
+    for (uint32_t i = 0; status == TN_OK && i < circle->count; i++) {
+        tn_dfa *all = NULL, *made = NULL, **known = &circle_lowered(lowering, circle, i)->dfa;
+        status = lower_term(lowering, &circle->terms[i], circle->form, &all, error);
+        if (status == TN_OK)
+            status = tn_dfa_product(all, within, TN_DFA_AND, "rule", &lowering->bounds, &made, error);
+        tn_dfa_free(all);
+        *changed |= status == TN_OK && !tn_dfa_equal(*known, made);
+        status = replace(status, known, made);
+    }
+    return status;
+}
+
+/* Round by round, for stretches as long as the plans that are asked about: in round n all of up to n trays are right.
+ */
+static tn_status circle_unroll(tn_lowering *lowering, tn_circle *circle, tn_error *error)
+{
+    if (lowering->max_trays == 0) {
+        tn_fail(error, TN_LIMIT, E_TOO_MANY_STATES,
+                "a rule that uses itself in the middle has no automaton for plans of every length");
+        tn_error_help(error, "it is interpreted, or made for the lengths of a library that uses it");
+        if (error)
+            error->code_offset = lowering->module->FUNCTION_records[circle->members[0]].code_begin;
+        return TN_LIMIT;
+    }
+    tn_dfa *within = NULL;
+    tn_status status = lower_short(lowering, lowering->max_trays, &within, error);
+    for (uint32_t i = 0; status == TN_OK && i < circle->count; i++)
+        status = tn_dfa_constant(lowering->marked.letters, false, &circle_lowered(lowering, circle, i)->dfa, error);
+    bool changed = true;
+    while (status == TN_OK && changed)
+        status = circle_round(lowering, circle, within, &changed, error);
+    tn_dfa_free(within);
+    return status;
+}
+
+static tn_status keep_failure(tn_lowered *lowered, const tn_error *error);
+
+/* Lowers a circle whose callees outside of it are lowered; a failure is kept for all of its functions. */
+static tn_status lower_circle(tn_lowering *lowering, tn_circle *circle, tn_error *error)
+{
+    tn_status status = circle_solve(lowering, circle, error);
+    if (status == TN_OK && !circle->linear)
+        status = circle_unroll(lowering, circle, error);
+    for (uint32_t i = 0; status != TN_OK && i < circle->count; i++) {
+        tn_lowered *lowered = circle_lowered(lowering, circle, i);
+        tn_dfa_free(lowered->dfa);
+        lowered->dfa = NULL;
+        if (i > 0)
+            keep_failure(lowered, error);
+    }
+    return status;
 }
 
 /* ---- functions: callees first, on a stack of our own */
@@ -435,27 +776,56 @@ static tn_status keep_failure(tn_lowered *lowered, const tn_error *error)
     return error->status;
 }
 
-/* Lowers the last pending function, or pushes what it needs first. */
-static tn_status lower_pending(tn_lowering *lowering, tn_key *pending, tn_error *error)
+/* A function that calls lower ones only, or pushes those that are not lowered yet. */
+static tn_status lower_function(tn_lowering *lowering, uint32_t wanted, tn_key *pending, tn_error *error)
 {
-    uint32_t wanted = pending->data[pending->size - 1], form = wanted % FORM_COUNT;
+    uint32_t form = wanted % FORM_COUNT;
     size_t before = pending->size;
-    tn_lowered *lowered = &lowering->lowered[wanted];
-    if (lowered->dfa) {
-        pending->size--;
-        return TN_OK;
-    }
     tn_term term;
-    tn_error failure = {0};
     tn_status status = term_read(lowering->module, wanted / FORM_COUNT, form & FORM_PLAIN, &term, error);
     if (status != TN_OK)
         return status;
-    status = push_callees(lowering, &term, form, pending, &failure);
-    if (status == TN_OK && pending->size == before) {
-        status = lower_term(lowering, &term, form, &lowered->dfa, &failure);
-        pending->size--;
-    }
+    status = push_callees(lowering, &term, form, pending, error);
+    if (status == TN_OK && pending->size == before)
+        status = lower_term(lowering, &term, form, &lowering->lowered[wanted].dfa, error);
     term_clear(&term);
+    return status;
+}
+
+/* All functions of a circle, or pushes what they call outside of it. Of the plan as a whole: what its relation says. */
+static tn_status lower_in_circle(tn_lowering *lowering, uint32_t wanted, tn_key *pending, tn_error *error)
+{
+    uint32_t form = wanted % FORM_COUNT, relation = wanted & ~(uint32_t)FORM_PLAIN;
+    size_t before = pending->size;
+    tn_circle circle;
+    if (form & FORM_PLAIN) {
+        tn_status status = push_callee(lowering, relation, pending, error);
+        return status != TN_OK || pending->size > before
+                   ? status
+                   : tn_marked_whole(&lowering->marked, lowering->lowered[relation].dfa, &lowering->lowered[wanted].dfa,
+                                     error);
+    }
+    tn_status status = circle_read(lowering, wanted / FORM_COUNT, form, &circle, error);
+    for (uint32_t i = 0; status == TN_OK && i < circle.count; i++)
+        status = push_callees(lowering, &circle.terms[i], form, pending, error);
+    if (status == TN_OK && pending->size == before)
+        status = lower_circle(lowering, &circle, error);
+    circle_clear(&circle);
+    return status;
+}
+
+/* Lowers the last pending function, or pushes what it needs first. */
+static tn_status lower_pending(tn_lowering *lowering, tn_key *pending, tn_error *error)
+{
+    uint32_t wanted = pending->data[pending->size - 1];
+    tn_lowered *lowered = &lowering->lowered[wanted];
+    bool circle = lowering->module->FUNCTION_records[wanted / FORM_COUNT].kind == TN_FUNCTION_CIRCLE;
+    tn_error failure = {0};
+    tn_status status = TN_OK;
+    if (!lowered->dfa)
+        status = (circle ? lower_in_circle : lower_function)(lowering, wanted, pending, &failure);
+    if (lowered->dfa)
+        pending->size--;
     if (status == TN_OK)
         return TN_OK;
     if (error)

@@ -222,8 +222,9 @@ static tn_status read_call(reading *r, uint32_t offset, const tn_instruction *co
 {
     if (is_case(r, offset, code))
         return push(r, leaf(TN_PART_COMPARISON, offset, code->length));
-    tn_part made = leaf(code->opcode == TN_OP_CALL ? TN_PART_RULE : TN_PART_KIND_COUNT, offset, code->length);
+    tn_part made = leaf(code->opcode == TN_OP_MIRROR ? TN_PART_KIND_COUNT : TN_PART_RULE, offset, code->length);
     made.function = (uint32_t)code->first;
+    made.again = code->opcode == TN_OP_AGAIN;
     made.rule = tn_function_rule(r->module, made.function);
     return push(r, made);
 }
@@ -240,6 +241,7 @@ static tn_status read_instruction(reading *r, uint32_t offset, const tn_instruct
         return push(r, made);
     case TN_OP_CALL:
     case TN_OP_MIRROR:
+    case TN_OP_AGAIN:
         return read_call(r, offset, code);
     case TN_OP_AND:
         return read_joined(r, TN_PART_AND, offset, code->length);
@@ -266,6 +268,11 @@ static tn_status read_instruction(reading *r, uint32_t offset, const tn_instruct
         return read_chain(r, offset, code->length);
     case TN_OP_MANY:
         return wrap(r, leaf(TN_PART_MANY, offset, code->length), 1);
+    case TN_OP_REPEATED:
+        made = leaf(TN_PART_REPEAT, offset, code->length);
+        made.least = (uint32_t)code->first;
+        made.most = (uint32_t)code->second;
+        return wrap(r, made, 1);
     case TN_OP_QUANTITY:
         return read_counted(r, TN_PART_QUANTITY, offset, code);
     case TN_OP_SUM:
@@ -321,7 +328,7 @@ static bool calls_own(const tn_module *module, uint32_t function, const tn_part 
         return false;
     const tn_function_record *whole = &module->FUNCTION_records[call->function];
     return own != UINT32_MAX ||
-           (holds->kind == TN_FUNCTION_HOLDS && whole->kind == TN_FUNCTION_WHOLE && holds->name == whole->name);
+           (holds->kind == TN_FUNCTION_HOLDS && tn_function_is_whole(whole) && holds->name == whole->name);
 }
 
 /* The judgement H of a rule may be a call of its own judgement M: then that one's parts are the rule's. */
@@ -423,8 +430,8 @@ void tn_parts_clear(tn_parts *parts)
 const char *tn_part_word(tn_part_kind kind)
 {
     static const char *const words[TN_PART_KIND_COUNT] = {
-        "tray",        "rule", "and",      "or",   "not", "neighbour", "symmetric",  "quantity", "sum",
-        "occurrences", "many", "distance", "near", "far", "where",     "comparison", "house",
+        "tray",        "rule", "and",    "or",       "not",  "neighbour", "symmetric", "quantity",   "sum",
+        "occurrences", "many", "repeat", "distance", "near", "far",       "where",     "comparison", "house",
     };
     return kind < TN_PART_KIND_COUNT ? words[kind] : "part";
 }

@@ -25,6 +25,7 @@ typedef enum tn_part_kind {
     TN_PART_SUM,
     TN_PART_OCCURRENCES,
     TN_PART_MANY,
+    TN_PART_REPEAT,     /* its one part, several times side by side */
     TN_PART_DISTANCE,   /* source, destination, separator */
     TN_PART_NEAR,       /* the same three: some destination that shares no tray with the source */
     TN_PART_FAR,        /* likewise: every such destination */
@@ -46,6 +47,8 @@ typedef struct tn_part {
     uint32_t function;             /* rule: the function called */
     uint32_t condition;            /* quantity, sum, occurrences: condition function */
     uint32_t field;                /* sum: FIELD record */
+    uint32_t least, most;          /* repeat: how often; most 0: no matter how often */
+    bool again;                    /* rule: of the same circle as the rule that it stands in */
     uint32_t parent, first, next;  /* parts; TN_NO_PART */
     uint32_t child_count;
 } tn_part;

@@ -153,6 +153,22 @@ TN_RELATION_INLINE void tn_relation_chain(uint64_t *lower, const uint64_t *upper
     }
 }
 
+/* relation := what any number of non-empty stretches of it make, one after another; none of them, too. Row i is made of
+ * the rows behind it. */
+TN_RELATION_INLINE void tn_relation_star(uint64_t *relation, size_t trays, size_t words, uint64_t *row_room)
+{
+    for (size_t i = trays + 1; i-- > 0;) {
+        uint64_t *row = tn_relation_row(relation, i, words);
+        memset(row_room, 0, words * sizeof *row_room);
+        tn_relation_row_set(row_room, i);
+        for (size_t end = tn_relation_row_next(row, i + 1, words); end != TN_NO_BIT;
+             end = end < trays ? tn_relation_row_next(row, end + 1, words) : TN_NO_BIT)
+            for (size_t w = 0; w < words; w++)
+                row_room[w] |= relation[end * words + w];
+        memcpy(row, row_room, words * sizeof *row);
+    }
+}
+
 TN_RELATION_INLINE void tn_relation_beginning(uint64_t *relation, size_t trays, size_t words)
 {
     memset(relation + words, 0, trays * words * sizeof *relation);

@@ -11,4 +11,8 @@
 tn_status tn_functions_same(const tn_module *module, uint32_t function, const tn_module *other_module, uint32_t other,
                             bool *same, tn_error *error);
 
+/* A hash of the code of a function, with all that it calls: whatever numbers its records have in the module, and the
+ * same on every machine. Functions that do the same by other code have other hashes. */
+tn_status tn_code_hash(const tn_module *module, uint32_t function, uint64_t hash[2], tn_error *error);
+
 #endif

@@ -76,7 +76,7 @@ static tn_status follow(tn_use_finder *finder, const tn_use_node *node, tn_error
     const tn_module *module = finder->module;
     if (tn_code_asks_house(node->op.opcode))
         return finder->seen(finder->context, &node->op, node->use, error);
-    if (node->op.opcode == TN_OP_CALL || node->op.opcode == TN_OP_MIRROR)
+    if (tn_code_calls(node->op.opcode))
         return meet(finder, (uint32_t)node->op.first, node->use, error);
     tn_status status = TN_OK;
     if (!tn_code_compares(node->op.opcode))
@@ -109,7 +109,7 @@ tn_status tn_rule_uses(const tn_module *module, uint32_t function, tn_use_seen *
 {
     tn_use_finder finder = {.module = module, .seen = seen, .context = context};
     size_t longest = 0;
-    for (uint32_t f = 0; f <= function; f++) {
+    for (uint32_t f = 0; f < module->FUNCTION_count; f++) {
         size_t bytes = module->FUNCTION_records[f].code_end - module->FUNCTION_records[f].code_begin;
         longest = bytes > longest ? bytes : longest;
     }

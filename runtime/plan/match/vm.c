@@ -65,6 +65,106 @@ static tn_status add_frame(tn_plan_vm *vm, uint32_t function, bool reversed, tn_
     return TN_OK;
 }
 
+/* ---- circles of functions */
+
+static bool is_member(const uint32_t *members, size_t count, uint32_t function)
+{
+    for (size_t i = 0; i < count; i++)
+        if (members[i] == function)
+            return true;
+    return false;
+}
+
+static tn_status add_member(tn_plan_vm *vm, uint32_t function, tn_error *error)
+{
+    if (!tn_array_reserve(&vm->members, &vm->member_capacity, vm->member_count, 1, sizeof *vm->members))
+        return tn_fail_memory(error);
+    vm->members[vm->member_count++] = function;
+    return TN_OK;
+}
+
+/* Lists a function and all that it takes again, directly or not. */
+static tn_status list_members(tn_plan_vm *vm, uint32_t function, tn_error *error)
+{
+    const tn_module *module = vm->module;
+    size_t first = vm->member_count;
+    tn_status status = add_member(vm, function, error);
+    for (size_t i = first; status == TN_OK && i < vm->member_count; i++) {
+        const tn_function_record *record = &module->FUNCTION_records[vm->members[i]];
+        for (uint32_t at = record->code_begin; status == TN_OK && at < record->code_end;) {
+            tn_instruction op = tn_code_read(module->code, at);
+            if (op.opcode == TN_OP_AGAIN &&
+                !is_member(vm->members + first, vm->member_count - first, (uint32_t)op.first))
+                status = add_member(vm, (uint32_t)op.first, error);
+            at += op.length;
+        }
+    }
+    return status;
+}
+
+static uint64_t *found_relation(const tn_plan_vm *vm, const vm_memo *memo)
+{
+    return vm->found.words + memo->slot * vm->relation_size;
+}
+
+/* Starts going round the circle of a function: nothing is known of any of its functions. */
+static tn_status begin_circle(tn_plan_vm *vm, uint32_t function, bool reversed, tn_error *error)
+{
+    vm_circle circle = {.first = vm->member_count, .reversed = reversed, .frame = vm->frame_count};
+    if (!tn_array_reserve(&vm->circles, &vm->circle_capacity, vm->circle_count, 1, sizeof *vm->circles))
+        return tn_fail_memory(error);
+    tn_status status = list_members(vm, function, error);
+    circle.count = vm->member_count - circle.first;
+    for (size_t i = 0; status == TN_OK && i < circle.count; i++) {
+        vm_memo *memo = &vm->memos[2 * (size_t)vm->members[circle.first + i] + reversed];
+        status = add_relation(vm, &vm->found, error);
+        if (status != TN_OK)
+            return status;
+        *memo = (vm_memo){.generation = vm->generation, .slot = (uint32_t)(vm->found.count - 1)};
+        memset(found_relation(vm, memo), 0, vm->relation_size * sizeof(uint64_t));
+    }
+    if (status != TN_OK)
+        return status;
+    vm->circles[vm->circle_count++] = circle;
+    return add_frame(vm, vm->members[circle.first], reversed, error);
+}
+
+/* Starts finding the relation of a function. */
+static tn_status begin_function(tn_plan_vm *vm, uint32_t function, bool reversed, tn_error *error)
+{
+    bool circle = vm->module->FUNCTION_records[function].kind == TN_FUNCTION_CIRCLE;
+    return (circle ? begin_circle : add_frame)(vm, function, reversed, error);
+}
+
+/* The circle whose function the last frame evaluates, or NULL. */
+static vm_circle *circle_at(const tn_plan_vm *vm)
+{
+    vm_circle *circle = vm->circle_count > 0 ? &vm->circles[vm->circle_count - 1] : NULL;
+    return circle && circle->frame + 1 == vm->frame_count ? circle : NULL;
+}
+
+/* The relation on top of the stack is what the circle's function says now: goes on to the next function of the circle,
+ * or ends. */
+static tn_status go_round(tn_plan_vm *vm, vm_circle *circle, const vm_frame *frame, tn_error *error)
+{
+    vm_memo *memo = &vm->memos[2 * (size_t)frame->function + frame->reversed];
+    uint64_t *known = found_relation(vm, memo), *now = vm->stack.words + --vm->stack.count * vm->relation_size;
+    bool changed = memcmp(known, now, vm->relation_size * sizeof *known) != 0;
+    bool reversed = circle->reversed;
+    memcpy(known, now, vm->relation_size * sizeof *known);
+    circle->changed = circle->changed || changed;
+    vm->frame_count--;
+    if (++circle->next == circle->count && circle->changed) {
+        circle->next = 0;
+        circle->changed = false;
+    }
+    if (circle->next < circle->count)
+        return add_frame(vm, vm->members[circle->first + circle->next], reversed, error);
+    vm->member_count = circle->first;
+    vm->circle_count--;
+    return TN_OK;
+}
+
 /* Room for the plan and for one operation on it, in one block. */
 static tn_status make_room(tn_plan_vm *vm, size_t length, tn_error *error)
 {
@@ -88,12 +188,21 @@ static tn_status make_room(tn_plan_vm *vm, size_t length, tn_error *error)
 
 /* ---- the interpreter */
 
+/* How often it chains. */
+static uint64_t times(const tn_plan_vm *vm, const tn_instruction *op)
+{
+    uint64_t most = op->second == 0 || (uint64_t)op->second > vm->length ? 2 : (uint64_t)op->second;
+    return ((uint64_t)op->first > vm->length ? 0 : (uint64_t)op->first) + most;
+}
+
 /* About how many words an operation touches; conditions cost a word a byte of code. */
 static uint64_t cost(const tn_plan_vm *vm, const tn_instruction *op)
 {
     uint64_t rows = vm->length + 1;
     uint32_t condition = UINT32_MAX;
     uint64_t asked = rows;
+    if (op->opcode == TN_OP_REPEATED)
+        return vm->relation_size + rows * rows / 2 * vm->words * times(vm, op);
     if (op->opcode == TN_OP_CHAIN || op->opcode == TN_OP_MIRROR)
         return vm->relation_size + rows * rows / 2 * vm->words;
     if (op->opcode == TN_OP_QUANTITY || op->opcode == TN_OP_OCCURRENCES)
@@ -127,17 +236,13 @@ static tn_status spend(tn_plan_vm *vm, const tn_instruction *op, uint32_t offset
     return TN_LIMIT;
 }
 
-static uint64_t *found_relation(const tn_plan_vm *vm, const vm_memo *memo)
-{
-    return vm->found.words + memo->slot * vm->relation_size;
-}
-
 static bool is_found(const tn_plan_vm *vm, const vm_memo *memo)
 {
     return memo->generation == vm->generation;
 }
 
-/* CALL and MIRROR: pushes a relation that is found already, or starts finding it, to come back to this instruction. */
+/* CALL, MIRROR and AGAIN: pushes a relation that is found already, or starts finding it, to come back to this
+ * instruction. */
 static tn_status run_call(tn_plan_vm *vm, vm_frame *frame, const tn_instruction *op, tn_error *error)
 {
     bool mirror = op->opcode == TN_OP_MIRROR;
@@ -145,7 +250,7 @@ static tn_status run_call(tn_plan_vm *vm, vm_frame *frame, const tn_instruction 
     uint32_t function = (uint32_t)op->first;
     const vm_memo *memo = &vm->memos[2 * (size_t)function + reversed];
     if (!is_found(vm, memo))
-        return add_frame(vm, function, reversed, error);
+        return begin_function(vm, function, reversed, error);
     tn_status status = add_relation(vm, &vm->stack, error);
     if (status != TN_OK)
         return status;
@@ -164,6 +269,9 @@ static tn_status run_call(tn_plan_vm *vm, vm_frame *frame, const tn_instruction 
 /* RETURN: the frame's one relation becomes the function's. */
 static tn_status run_return(tn_plan_vm *vm, const vm_frame *frame, tn_error *error)
 {
+    vm_circle *circle = circle_at(vm);
+    if (circle)
+        return go_round(vm, circle, frame, error);
     tn_status status = add_relation(vm, &vm->found, error);
     if (status != TN_OK)
         return status;
@@ -217,7 +325,7 @@ static tn_status run_compare(tn_plan_vm *vm, vm_frame *frame, const tn_instructi
         return status;
     bool reversed = frame->reversed;
     if (tn_plan_vm_sum_needs(vm, sum, reversed, &function))
-        return add_frame(vm, function, reversed, error);
+        return begin_function(vm, function, reversed, error);
     status = add_relation(vm, &vm->stack, error);
     if (status != TN_OK)
         return status;
@@ -233,7 +341,7 @@ static tn_status run_instruction(tn_plan_vm *vm, tn_error *error)
     tn_status status = spend(vm, &op, frame->offset, error);
     if (status != TN_OK)
         return status;
-    if (op.opcode == TN_OP_CALL || op.opcode == TN_OP_MIRROR)
+    if (tn_code_calls(op.opcode))
         return run_call(vm, frame, &op, error);
     if (tn_code_compares(op.opcode))
         return run_compare(vm, frame, &op, error);
@@ -245,6 +353,9 @@ static tn_status run_instruction(tn_plan_vm *vm, tn_error *error)
     const tn_opcode_effect effect = tn_code_effect((uint8_t)op.opcode);
     if (effect.pops == 0 && (status = add_relation(vm, &vm->stack, error)) != TN_OK)
         return status;
+    if (op.opcode == TN_OP_REPEATED && (status = add_relation(vm, &vm->stack, error)) != TN_OK) /* room for it */
+        return status;
+    vm->stack.count -= op.opcode == TN_OP_REPEATED;
     if (effect.pops > 0)
         vm->stack.count -= effect.pops - 1u;
     uint64_t *top = vm->stack.words + (vm->stack.count - 1) * vm->relation_size;
@@ -277,6 +388,17 @@ static tn_status step(tn_plan_vm *vm, tn_error *error)
     return status;
 }
 
+/* Leaves behind what a failure may have left there. A circle that was not gone round to its end is found again. */
+static void start_stack(tn_plan_vm *vm)
+{
+    for (size_t i = 0; i < vm->circle_count; i++)
+        for (size_t k = 0; k < vm->circles[i].count; k++)
+            vm->memos[2 * (size_t)vm->members[vm->circles[i].first + k] + vm->circles[i].reversed].generation = 0;
+    vm->circle_count = vm->member_count = 0;
+    vm->stack.count = 0;
+    vm->frame_count = 0;
+}
+
 /* The relation of a function on the plan, found now or before. */
 static tn_status evaluate(tn_plan_vm *vm, uint32_t function, const uint64_t **relation, tn_error *error)
 {
@@ -287,9 +409,8 @@ static tn_status evaluate(tn_plan_vm *vm, uint32_t function, const uint64_t **re
     const vm_memo *memo = &vm->memos[2 * (size_t)function];
     vm->work = vm->work_limit;
     if (!is_found(vm, memo)) {
-        vm->stack.count = 0;
-        vm->frame_count = 0;
-        tn_status status = add_frame(vm, function, false, error);
+        start_stack(vm);
+        tn_status status = begin_function(vm, function, false, error);
         while (status == TN_OK && vm->frame_count > 0)
             status = step(vm, error);
         if (status != TN_OK)
@@ -334,6 +455,8 @@ void tn_plan_vm_free(tn_plan_vm *vm)
     free(vm->found.words);
     free(vm->stack.words);
     free(vm->frames);
+    free(vm->circles);
+    free(vm->members);
     free(vm->room_block);
     free(vm);
 }
@@ -397,8 +520,7 @@ tn_status tn_plan_vm_term(tn_plan_vm *vm, uint32_t code_begin, uint32_t code_end
                           const uint64_t **relation, size_t *words, tn_error *error)
 {
     vm->work = vm->work_limit;
-    vm->stack.count = 0;
-    vm->frame_count = 0;
+    start_stack(vm);
     tn_status status = add_frame(vm, 0, reversed, error);
     if (status == TN_OK)
         vm->frames[0].offset = code_begin;

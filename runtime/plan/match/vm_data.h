@@ -14,11 +14,21 @@ typedef struct vm_frame {
     bool reversed;
 } vm_frame;
 
-/* Where a function's relation lies among those found, if that was for this plan. */
+/* Where a function's relation lies among those found, if that was for this plan. Of a function in a circle that is gone
+ * round, it is what is known of it so far. */
 typedef struct vm_memo {
     uint32_t generation;
     uint32_t slot;
 } vm_memo;
+
+/* A circle of functions that is being gone round until nothing new is found: what they say of one another only grows,
+ * so that this is the least solution, and in round n it is right for stretches of up to n trays. */
+typedef struct vm_circle {
+    size_t first, count; /* of its functions, in the vm's list */
+    size_t next;         /* which of them is being evaluated */
+    size_t frame;        /* its place among the frames */
+    bool reversed, changed;
+} vm_circle;
 
 /* Relations one after another, each of the vm's relation_size words. */
 typedef struct vm_relations {
@@ -50,6 +60,10 @@ struct tn_plan_vm {
     vm_relations stack;   /* operands of all frames */
     vm_frame *frames;
     size_t frame_count, frame_capacity;
+    vm_circle *circles; /* those being gone round, from the outside in */
+    size_t circle_count, circle_capacity;
+    uint32_t *members; /* their functions */
+    size_t member_count, member_capacity;
 
     /* Room for a plan of `room` trays and one operation on it, all in one block. */
     size_t room;

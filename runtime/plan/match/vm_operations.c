@@ -119,6 +119,29 @@ TN_RELATION_INLINE void run_sum(tn_plan_vm *vm, uint64_t *relation, uint32_t fie
     }
 }
 
+/* REPEATED: as many stretches as it needs, chained, and then as many as it may have. No stretch has more than trays.
+ * The relation behind it on the stack is room. */
+TN_RELATION_INLINE void run_times(tn_plan_vm *vm, uint64_t *relation, uint64_t least, uint64_t most, size_t words)
+{
+    size_t trays = vm->length;
+    uint64_t *each = relation + vm->relation_size;
+    tn_relation_nonempty(relation, trays, words);
+    memcpy(each, relation, vm->relation_size * sizeof *each);
+    if (least > trays) {
+        memset(relation, 0, vm->relation_size * sizeof *relation);
+        return;
+    }
+    for (uint64_t n = 1; n < least; n++)
+        tn_relation_chain(relation, each, trays, words, vm->rows);
+    bool any = most == 0 || most >= trays;
+    if (any)
+        tn_relation_star(each, trays, words, vm->rows);
+    else
+        tn_relation_optional(each, trays, words);
+    for (uint64_t n = any ? 0 : least; n < (any ? 1 : most); n++)
+        tn_relation_chain(relation, each, trays, words, vm->rows);
+}
+
 /* DISTANCE, NEAR, FAR: source, destination and separator. */
 TN_RELATION_INLINE void run_gaps(tn_plan_vm *vm, tn_opcode opcode, uint64_t *source, size_t words)
 {
@@ -173,6 +196,9 @@ TN_RELATION_INLINE void run_operation(tn_plan_vm *vm, const tn_instruction *op, 
         break;
     case TN_OP_CHAIN:
         tn_relation_chain(top, top + vm->relation_size, trays, words, vm->rows);
+        break;
+    case TN_OP_REPEATED:
+        run_times(vm, top, (uint64_t)op->first, (uint64_t)op->second, words);
         break;
     case TN_OP_BEGINNING:
         tn_relation_beginning(top, trays, words);

@@ -1,14 +1,213 @@
 /* The best plans of a library: recursive enumeration over its automaton. */
-#include "runtime/plan/measure/best_data.h"
-
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/automata/numbering.h"
 #include "runtime/base/array.h"
+#include "runtime/base/int128.h"
 #include "runtime/plan/library/library_data.h"
+#include "runtime/plan/measure/best.h"
 #include "runtime/plan/measure/cloud.h"
 #include "runtime/plan/measure/weighed_layers.h"
+
+typedef struct tn_best_quotient tn_best_quotient;
+
+static tn_status best_of_mixture(tn_weighed *weighed, const int64_t *times, const bool *most, tn_best **best,
+                                 tn_error *error);
+
+/* ---- the best plans by a quotient of two sums A / B, B above 0 */
+
+typedef struct found_plan {
+    tn_tray *trays;
+    uint32_t length;
+    int64_t values[TN_WEIGHED_MAX];
+} found_plan;
+
+struct tn_best_quotient {
+    tn_weighed *weighed;
+    bool most;
+    bool most_of_sum[TN_WEIGHED_MAX];
+    found_plan *found; /* [wanted], in order */
+    size_t count, wanted, given;
+    bool all; /* there are no more */
+};
+
+enum { FIRST = 16 };
+
+static void clear_found(tn_best_quotient *best)
+{
+    for (size_t i = 0; i < best->count; i++)
+        free(best->found[i].trays);
+    free(best->found);
+    best->found = NULL;
+    best->count = 0;
+}
+
+static void best_quotient_free(tn_best_quotient *best)
+{
+    if (!best)
+        return;
+    clear_found(best);
+    free(best);
+}
+
+/* The order of two quotients, as steps of the one sum by steps of the other: the better first. */
+static int compare_quotients(const tn_best_quotient *best, const int64_t *a, const int64_t *b)
+{
+    tn_int128 left = (tn_int128)a[0] * b[1], right = (tn_int128)b[0] * a[1];
+    int order = (left > right) - (left < right);
+    return best->most ? -order : order;
+}
+
+/* The plans that are best by so many times the one sum and so many times the other: as many as are wanted. */
+static tn_status find(tn_best_quotient *best, const int64_t *times, size_t wanted, tn_error *error)
+{
+    tn_best *mixture = NULL;
+    uint32_t longest = tn_library_max(tn_weighed_library(best->weighed));
+    clear_found(best);
+    best->found = calloc(wanted + 1, sizeof *best->found);
+    tn_status status =
+        best->found ? best_of_mixture(best->weighed, times, best->most_of_sum, &mixture, error) : tn_fail_memory(error);
+    for (bool more = true; status == TN_OK && more && best->count < wanted;) {
+        found_plan *plan = &best->found[best->count];
+        plan->trays = malloc(((size_t)longest + 1) * sizeof *plan->trays);
+        if (!plan->trays) {
+            status = tn_fail_memory(error);
+            break;
+        }
+        status = tn_best_next(mixture, plan->trays, &plan->length, plan->values, &more, error);
+        if (status == TN_OK && more)
+            best->count++;
+        else
+            free(plan->trays);
+    }
+    tn_best_free(mixture);
+    return status;
+}
+
+static int64_t divisor(int64_t a, int64_t b)
+{
+    while (b != 0) {
+        int64_t rest = a % b;
+        a = b;
+        b = rest;
+    }
+    return llabs(a);
+}
+
+/* How many times each sum counts so that 0 is what the quotient of these values has. */
+static void find_times(const tn_best_quotient *best, const int64_t *values, int64_t *times)
+{
+    int64_t common = divisor(values[0], values[1]), sign = best->most ? -1 : 1;
+    times[0] = sign * (values[1] / common);
+    times[1] = -sign * (values[0] / common);
+}
+
+/* By value, further values, length and trays: the order of ranks. */
+static int compare_plans(const tn_best_quotient *best, const found_plan *a, const found_plan *b)
+{
+    int order = compare_quotients(best, a->values, b->values);
+    for (uint32_t k = 2; order == 0 && k < tn_weighed_count(best->weighed); k++) {
+        order = (a->values[k] > b->values[k]) - (a->values[k] < b->values[k]);
+        order = best->most_of_sum[k] ? -order : order;
+    }
+    if (order == 0)
+        order = (a->length > b->length) - (a->length < b->length);
+    for (uint32_t i = 0; order == 0 && i < a->length; i++)
+        order = (a->trays[i] > b->trays[i]) - (a->trays[i] < b->trays[i]);
+    return order;
+}
+
+/* Stable and simple: all but those that are better than the last are in order already. */
+static void sort(tn_best_quotient *best)
+{
+    for (size_t i = 1; i < best->count; i++) {
+        found_plan plan = best->found[i];
+        size_t at = i;
+        for (; at > 0 && compare_plans(best, &plan, &best->found[at - 1]) < 0; at--)
+            best->found[at] = best->found[at - 1];
+        best->found[at] = plan;
+    }
+}
+
+static size_t worst(const tn_best_quotient *best)
+{
+    size_t found = 0;
+    for (size_t i = 1; i < best->count; i++)
+        if (compare_quotients(best, best->found[i].values, best->found[found].values) > 0)
+            found = i;
+    return found;
+}
+
+/* The best, as many as are wanted. */
+static tn_status refill(tn_best_quotient *best, size_t wanted, tn_error *error)
+{
+    int64_t reached[TN_WEIGHED_MAX], times[2] = {best->most ? -1 : 1, 0};
+    for (bool first = true;; first = false) {
+        tn_status status = find(best, times, wanted, error);
+        if (status != TN_OK)
+            return status;
+        best->all = best->count < wanted;
+        if (best->all)
+            break;
+        const int64_t *now = best->found[worst(best)].values;
+        if (!first && compare_quotients(best, now, reached) == 0)
+            break;
+        memcpy(reached, now, sizeof reached);
+        find_times(best, reached, times);
+    }
+    sort(best);
+    best->wanted = wanted;
+    return TN_OK;
+}
+
+/* No plan divides by less than 0. */
+static tn_status check_divisor(tn_best_quotient *best, tn_error *error)
+{
+    const int64_t times[2] = {0, 1};
+    tn_status status = find(best, times, 1, error);
+    if (status != TN_OK || best->count == 0 || best->found[0].values[1] > 0)
+        return status;
+    tn_fail(error, TN_INVALID, E_QUOTIENT, "measure `%.60s` divides by a number that is below 0 for some plans",
+            tn_weighed_name(best->weighed, 0));
+    tn_error_help(error, "the best are found by quotients of what is above 0: `--where` can leave the other plans out");
+    return TN_INVALID;
+}
+
+static tn_status best_quotient_new(tn_weighed *weighed, const bool *most, tn_best_quotient **out, tn_error *error)
+{
+    tn_best_quotient *best = calloc(1, sizeof *best);
+    if (!best)
+        return tn_fail_memory(error);
+    best->weighed = weighed;
+    best->most = most[0];
+    for (uint32_t k = 1; k < tn_weighed_measures(weighed); k++)
+        best->most_of_sum[k + 1] = most[k];
+    tn_status status = check_divisor(best, error);
+    if (status == TN_OK)
+        *out = best;
+    else
+        best_quotient_free(best);
+    return status;
+}
+
+static tn_status best_quotient_next(tn_best_quotient *best, tn_tray *trays, uint32_t *length, int64_t *values,
+                                    bool *found, tn_error *error)
+{
+    if (best->given == best->wanted && !best->all) {
+        tn_status status = refill(best, best->wanted ? 2 * best->wanted : FIRST, error);
+        if (status != TN_OK)
+            return status;
+    }
+    *found = best->given < best->count;
+    if (!*found)
+        return TN_OK;
+    const found_plan *plan = &best->found[best->given++];
+    memcpy(trays, plan->trays, plan->length * sizeof *trays);
+    memcpy(values, plan->values, sizeof plan->values);
+    *length = plan->length;
+    return TN_OK;
+}
 
 #define NONE UINT32_MAX
 
@@ -83,7 +282,7 @@ tn_status tn_best_new(tn_weighed *weighed, const bool *most, tn_best **out, tn_e
     if (!first)
         return new_of_sums(weighed, most, out, error);
     tn_best *best = calloc(1, sizeof *best);
-    tn_status status = best ? tn_best_quotient_new(weighed, most, &best->quotient, error) : tn_fail_memory(error);
+    tn_status status = best ? best_quotient_new(weighed, most, &best->quotient, error) : tn_fail_memory(error);
     if (status == TN_OK)
         *out = best;
     else
@@ -91,8 +290,10 @@ tn_status tn_best_new(tn_weighed *weighed, const bool *most, tn_best **out, tn_e
     return status;
 }
 
-tn_status tn_best_of_mixture(tn_weighed *weighed, const int64_t *times, const bool *most, tn_best **out,
-                             tn_error *error)
+/* By the first two sums as one, each so many times, as small as can be; then by the other sums. E0424 (TN_LIMIT) where
+ * that passes 64 bits. most: of the sums behind them, from index 2 on. */
+static tn_status best_of_mixture(tn_weighed *weighed, const int64_t *times, const bool *most, tn_best **out,
+                                 tn_error *error)
 {
     tn_status status = new_of_sums(weighed, most, out, error);
     if (status != TN_OK)
@@ -110,7 +311,7 @@ void tn_best_free(tn_best *best)
 {
     if (!best)
         return;
-    tn_best_quotient_free(best->quotient);
+    best_quotient_free(best->quotient);
     for (uint32_t i = 0; i < best->place_count; i++) {
         free(best->places[i].found);
         free(best->places[i].heap);
@@ -438,7 +639,7 @@ tn_status tn_best_next(tn_best *best, tn_tray *trays, uint32_t *length, int64_t 
 {
     *found = false;
     if (best->quotient)
-        return tn_best_quotient_next(best->quotient, trays, length, values, found, error);
+        return best_quotient_next(best->quotient, trays, length, values, found, error);
     if (best->library->min > best->library->max)
         return TN_OK;
     if (!best->given &&

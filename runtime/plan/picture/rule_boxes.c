@@ -41,6 +41,16 @@ void tn_rule_boxes_clear(tn_rule_boxes *boxes)
 
 /* ---- words of parts */
 
+static void repeat_words(uint32_t least, uint32_t most, char words[TN_RULE_WORDS_MAX])
+{
+    if (most == 0)
+        snprintf(words, TN_RULE_WORDS_MAX, "%u or more side by side:", (unsigned)least);
+    else if (most == least)
+        snprintf(words, TN_RULE_WORDS_MAX, "%u side by side:", (unsigned)least);
+    else
+        snprintf(words, TN_RULE_WORDS_MAX, "%u to %u side by side:", (unsigned)least, (unsigned)most);
+}
+
 static const char *sign_of(tn_part_kind kind)
 {
     switch (kind) {
@@ -122,6 +132,8 @@ static void words_of(const tn_parts *parts, uint32_t part, char words[TN_RULE_WO
     const tn_module *module = parts->module;
     char condition[TN_CONDITION_TEXT_MAX];
     snprintf(words, TN_RULE_WORDS_MAX, "%s", is_every(parts, it) ? "every" : sign_of(it->kind));
+    if (it->kind == TN_PART_REPEAT)
+        repeat_words(it->least, it->most, words);
     if (it->kind == TN_PART_NEAR || it->kind == TN_PART_FAR)
         near_words(parts, it, words);
     if (it->kind != TN_PART_QUANTITY && it->kind != TN_PART_SUM && it->kind != TN_PART_OCCURRENCES)

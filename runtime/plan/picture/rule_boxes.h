@@ -4,7 +4,7 @@
 #define TARTAN_PLAN_PICTURE_RULE_BOXES_H
 
 #include "runtime/module/module.h"
-#include "runtime/plan/match/condition_text.h"
+#include "runtime/plan/match/condition.h"
 
 #define TN_NO_BOX UINT32_MAX
 #define TN_NO_BOX_NUMBER SIZE_MAX

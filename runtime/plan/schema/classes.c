@@ -166,6 +166,7 @@ static tn_status visit(tn_class_finder *finder, const tn_instruction *instructio
     switch (instruction->opcode) {
     case TN_OP_CALL:
     case TN_OP_MIRROR:
+    case TN_OP_AGAIN:
         return push_function(finder, first, error);
     case TN_OP_SUM:
     case TN_OP_MIRRORED:

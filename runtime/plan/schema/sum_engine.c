@@ -20,7 +20,9 @@ static bool is_rational(const tn_module *module, tn_string text)
 
 static bool is_of(const tn_module *module, uint32_t function, tn_function_kind kind, uint32_t schema)
 {
-    return module->FUNCTION_records[function].kind == kind && module->FUNCTION_records[function].schema == schema;
+    const tn_function_record *record = &module->FUNCTION_records[function];
+    bool fits = kind == TN_FUNCTION_WHOLE ? tn_function_is_whole(record) : record->kind == kind;
+    return fits && record->schema == schema;
 }
 
 /* Is the function one specifier, of which a tray decides alone? */

@@ -53,7 +53,7 @@ void tn_prolog_put_name(writing *w, uint32_t function, uint32_t part)
     char suffix[64];
     const tn_function_record *record = &w->module->FUNCTION_records[function];
     uint32_t rule = tn_function_rule(w->module, function);
-    const char *kind = record->kind == TN_FUNCTION_WHOLE ? "whole" : "somewhere";
+    const char *kind = tn_function_is_whole(record) ? "whole" : "somewhere";
     w->asked[function] |= part == 0;
     if (part == 0 && rule != UINT32_MAX)
         snprintf(suffix, sizeof suffix, " %s", kind);
@@ -276,6 +276,15 @@ static tn_status put_body(writing *w, const tn_parts *parts, uint32_t function, 
         put_name(w, function, it->first);
         put(w, ", W, I, J)");
         break;
+    case TN_PART_REPEAT:
+        w->ok = w->ok && tn_buffer_printf(w->out, "repeated(%" PRIu32 ", ", it->least);
+        if (it->most > 0)
+            w->ok = w->ok && tn_buffer_printf(w->out, "%" PRIu32 ", ", it->most);
+        else
+            put(w, "inf, ");
+        put_name(w, function, it->first);
+        put(w, ", W, I, J)");
+        break;
     case TN_PART_DISTANCE:
         put_gaps(w, "distance(", parts, function, part);
         break;
@@ -336,6 +345,7 @@ static bool has_words(const writing *w, const tn_part *part)
     case TN_PART_SUM:
     case TN_PART_OCCURRENCES:
     case TN_PART_MANY:
+    case TN_PART_REPEAT:
     case TN_PART_DISTANCE:
     case TN_PART_NEAR:
     case TN_PART_FAR:
@@ -346,21 +356,34 @@ static bool has_words(const writing *w, const tn_part *part)
     }
 }
 
-/* Finds out which functions can be said: what one calls comes before it. */
+static tn_status says(const writing *w, uint32_t function, bool *said, tn_error *error)
+{
+    tn_parts parts = {0};
+    tn_status status = tn_parts_read(w->module, function, &parts, error);
+    *said = status == TN_OK;
+    for (uint32_t part = 0; *said && part < parts.count; part++)
+        *said = has_words(w, &parts.parts[part]);
+    tn_parts_clear(&parts);
+    return status == TN_MEMORY ? status : TN_OK;
+}
+
+/* Finds out which functions can be said: all are taken to be, until one that they call is not. */
 static tn_status find_said(writing *w, tn_error *error)
 {
     for (uint32_t f = 0; f < w->module->FUNCTION_count; f++) {
-        uint32_t kind = w->module->FUNCTION_records[f].kind;
-        tn_parts parts = {0};
-        tn_status status = TN_INVALID;
-        if (kind == TN_FUNCTION_WHOLE || kind == TN_FUNCTION_HOLDS)
-            status = tn_parts_read(w->module, f, &parts, error);
-        w->said[f] = status == TN_OK;
-        for (uint32_t part = 0; w->said[f] && part < parts.count; part++)
-            w->said[f] = has_words(w, &parts.parts[part]);
-        tn_parts_clear(&parts);
-        if (status == TN_MEMORY)
-            return status;
+        const tn_function_record *record = &w->module->FUNCTION_records[f];
+        w->said[f] = tn_function_is_whole(record) || record->kind == TN_FUNCTION_HOLDS;
+    }
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (uint32_t f = 0; f < w->module->FUNCTION_count; f++) {
+            bool said = w->said[f];
+            tn_status status = said ? says(w, f, &said, error) : TN_OK;
+            if (status != TN_OK)
+                return status;
+            changed |= said != w->said[f];
+            w->said[f] = said;
+        }
     }
     return TN_OK;
 }

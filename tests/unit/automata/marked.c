@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include "runtime/automata/count.h"
+#include "runtime/automata/equations.h"
 #include "runtime/automata/marked.h"
 
 enum { LETTERS = 3, LONGEST = 6 };
@@ -158,11 +159,101 @@ static void test_words_are_counted_by_their_symbols(void **state)
     tn_dfa_free(chain);
 }
 
+/* Cut into two or three stretches, each some letters 0 and then one that is chosen. */
+static bool twice_or_thrice(const uint8_t *word, size_t size)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < size; i++)
+        count += word[i] > 0;
+    return size > 0 && word[size - 1] > 0 && count >= 2 && count <= 3;
+}
+
+static bool twice_or_more(const uint8_t *word, size_t size)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < size; i++)
+        count += word[i] > 0;
+    return size > 0 && word[size - 1] > 0 && count >= 2;
+}
+
+/* A stretch that ends with a chosen letter and has no other one. */
+static tn_dfa *up_to_chosen(letters *l)
+{
+    static const uint8_t others[LETTERS] = {1, 0, 0};
+    tn_dfa *other, *before, *maybe, *all;
+    assert_int_equal(tn_marked_letter(&l->marked, others, &other, NULL), TN_OK);
+    assert_int_equal(tn_marked_repeat(&l->marked, other, 1, 0, &before, NULL), TN_OK);
+    assert_int_equal(tn_dfa_product(before, l->marked.empty, TN_DFA_OR, "test", &l->bounds, &maybe, NULL), TN_OK);
+    assert_int_equal(tn_marked_chain(&l->marked, maybe, l->chosen, &all, NULL), TN_OK);
+    tn_dfa_free(other);
+    tn_dfa_free(before);
+    tn_dfa_free(maybe);
+    return all;
+}
+
+static void test_stretches_are_repeated(void **state)
+{
+    letters *l = *state;
+    tn_dfa *each = up_to_chosen(l), *repeated;
+    assert_int_equal(tn_marked_repeat(&l->marked, each, 2, 3, &repeated, NULL), TN_OK);
+    compare(whole(l, repeated), twice_or_thrice);
+    assert_int_equal(tn_marked_repeat(&l->marked, each, 2, 0, &repeated, NULL), TN_OK);
+    compare(whole(l, repeated), twice_or_more);
+    tn_dfa_free(each);
+}
+
+/* Any number of letters 0, and then some that are chosen: X = a X or Y, Y = b Y or b. */
+static bool ones_then_others(const uint8_t *word, size_t size)
+{
+    size_t i = 0;
+    while (i < size && word[i] == 0)
+        i++;
+    size_t others = 0;
+    while (i < size && word[i] > 0) {
+        i++;
+        others++;
+    }
+    return i == size && others > 0;
+}
+
+static void test_linear_equations_are_solved(void **state)
+{
+    letters *l = *state;
+    static const uint8_t zero[LETTERS] = {1, 0, 0};
+    tn_dfa *a, *found[2];
+    assert_int_equal(tn_marked_letter(&l->marked, zero, &a, NULL), TN_OK);
+    for (int left = 0; left < 2; left++) { /* left-linear: X = X b or Y b, Y = Y a or a, or b alone */
+        tn_linear sides[2] = {{0}}, other = {0};
+        for (uint32_t i = 0; i < 2; i++) {
+            assert_int_equal(tn_linear_make(&l->marked, 2, i, &sides[i], NULL), TN_OK);
+            assert_int_equal(tn_linear_chain(&l->marked, &sides[i], (i == 0) == !left ? a : l->chosen, !left, NULL),
+                             TN_OK);
+        }
+        assert_int_equal(tn_linear_make(&l->marked, 2, 1, &other, NULL), TN_OK);
+        if (left)
+            assert_int_equal(tn_linear_chain(&l->marked, &other, l->chosen, false, NULL), TN_OK);
+        assert_int_equal(tn_linear_or(&l->marked, &sides[0], &other, NULL), TN_OK);
+        sides[1].rest = tn_dfa_share(left ? a : l->chosen);
+        if (left)
+            sides[0].rest = tn_dfa_share(l->chosen);
+        assert_true(tn_linear_has_unknowns(&sides[0]));
+        assert_int_equal(tn_linear_solve(&l->marked, sides, 2, left, found, NULL), TN_OK);
+        compare(whole(l, found[0]), ones_then_others);
+        tn_dfa_free(found[1]);
+        tn_linear_clear(&sides[0]);
+        tn_linear_clear(&sides[1]);
+        tn_linear_clear(&other);
+    }
+    tn_dfa_free(a);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_letters_count_what_they_are_said_to),
                                        cmocka_unit_test(test_each_letter_counts_one),
                                        cmocka_unit_test(test_stretches_follow_and_are_found),
+                                       cmocka_unit_test(test_stretches_are_repeated),
+                                       cmocka_unit_test(test_linear_equations_are_solved),
                                        cmocka_unit_test(test_words_are_counted_by_their_symbols)};
     return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "runtime/load.h"
-#include "runtime/plan/match/condition_text.h"
+#include "runtime/plan/match/condition.h"
 #include "tests/support/sample_module.h"
 
 static char *listing(tn_builder *builder)
@@ -107,21 +107,31 @@ static void test_sample(void **state)
         "     118  BEGINNING\n"
         "     119  TRAY        spec 1  width 4'\n"
         "     124  MANY\n"
-        "     125  OPTIONAL\n"
-        "     126  END\n"
-        "     127  CALL        function 2 (holds pair)\n"
-        "     132  DISTANCE\n"
-        "     133  TRAY        spec 1  width 4'\n"
-        "     138  TRAY        spec 1  width 4'\n"
-        "     143  NEAR\n"
-        "     144  TRAY        spec 1  width 4'\n"
-        "     149  TRAY        spec 1  width 4'\n"
-        "     154  FAR\n"
-        "     155  MIRRORED    field 0  width\n"
-        "     160  WHERE\n"
+        "     125  REPEATED    2, 3\n"
+        "     142  OPTIONAL\n"
+        "     143  END\n"
+        "     144  CALL        function 2 (holds pair)\n"
+        "     149  DISTANCE\n"
+        "     150  TRAY        spec 1  width 4'\n"
+        "     155  TRAY        spec 1  width 4'\n"
+        "     160  NEAR\n"
         "     161  TRAY        spec 1  width 4'\n"
-        "     166  OR\n"
-        "     167  RETURN\n");
+        "     166  TRAY        spec 1  width 4'\n"
+        "     171  FAR\n"
+        "     172  MIRRORED    field 0  width\n"
+        "     177  WHERE\n"
+        "     178  TRAY        spec 1  width 4'\n"
+        "     183  OR\n"
+        "     184  RETURN\n"
+        "\n"
+        "function 4 (circle row) of toy, stack 2\n"
+        "  ; toy.plan:4: rule pair = neighbour(tray(4'), tray(4'))\n"
+        "     185  TRAY        spec 1  width 4'\n"
+        "     190  NONEMPTY\n"
+        "     191  AGAIN       function 4 (circle row)\n"
+        "     196  OPTIONAL\n"
+        "     197  CHAIN\n"
+        "     198  RETURN\n");
     free(text);
 }
 

@@ -107,6 +107,9 @@ static void expressions(void **state)
     expect("rule r = sum(width, w > 4')", "TRAY SUM RETURN", "CALL RETURN");
     expect("rule r = sum(machine depth of tray(4'), w > 4')", "TRAY SUM RETURN", "CALL RETURN");
     expect("rule r = many(any)", "TRAY MANY RETURN", "CALL SOMEWHERE RETURN");
+    expect("rule r = repeat(any, 2..)", "TRAY REPEATED RETURN", "CALL SOMEWHERE RETURN");
+    expect("rule r = any or neighbour(any, r)", "TRAY TRAY NONEMPTY AGAIN NONEMPTY CHAIN OR RETURN",
+           "TRAY SOMEWHERE TRAY NONEMPTY CALL NONEMPTY CHAIN SOMEWHERE OR RETURN");
     expect("rule r = distance(from tray(4'), to any, by quantity(any, n > 2))",
            "TRAY TRAY TRAY QUANTITY DISTANCE RETURN", "CALL SOMEWHERE RETURN");
     expect("rule r = symmetric neighbour(beginning, tray(4'))", "CALL MIRROR OR RETURN", "CALL SOMEWHERE RETURN");

@@ -265,7 +265,7 @@ static void test_rules_and_libraries(void **state)
     const char *reason = "rule 0 names a function of another kind or schema";
     REFUSED(RULE, tn_rule_record, 0, whole = 2, reason);
     REFUSED(RULE, tn_rule_record, 0, holds = 1, reason);
-    REFUSED(RULE, tn_rule_record, 0, holds = 4, "rule 0: holds is function 4, which is not there");
+    REFUSED(RULE, tn_rule_record, 0, holds = 5, "rule 0: holds is function 5, which is not there");
     REFUSED(RULE, tn_rule_record, 0, holds = 0, reason);
     REFUSED(RULE, tn_rule_record, 0, schema = 1, "rule 0: schema is schema 1, which is not there");
     REFUSED(RULE, tn_rule_record, 0, flags = 2, "rule 0: flags has unknown bits");
@@ -275,7 +275,7 @@ static void test_rules_and_libraries(void **state)
     REFUSED(LIBRARY, tn_library_record, 0, clause_count = 1, "it has clause records that belong to no library record");
     REFUSED(LIBRARY, tn_library_record, 0, clause_count = 3, "library 0: its run of clause records does not follow");
     REFUSED(LIBRARY, tn_library_record, 0, clause_first = 1, "library 0: its run of clause records does not follow");
-    REFUSED(CLAUSE, tn_clause_record, 0, kind = TN_CLAUSE_KIND_COUNT, "clause 0: kind is 3; 0 to 2 are possible");
+    REFUSED(CLAUSE, tn_clause_record, 0, kind = TN_CLAUSE_KIND_COUNT, "clause 0: kind is 4; 0 to 3 are possible");
     REFUSED(CLAUSE, tn_clause_record, 0, holds = 1, "clause 0 names a function of another kind or schema");
     tn_builder *builder = sample_builder();
     tn_builder_add_PRODUCER(builder, &(tn_producer_record){0});
@@ -285,9 +285,9 @@ static void test_rules_and_libraries(void **state)
 static void test_functions(void **state)
 {
     (void)state;
-    REFUSED(FUNCTION, tn_function_record, 1, kind = TN_FUNCTION_KIND_COUNT, "function 1: kind is 14");
+    REFUSED(FUNCTION, tn_function_record, 1, kind = TN_FUNCTION_KIND_COUNT, "function 1: kind is 15");
     REFUSED(FUNCTION, tn_function_record, 0, kind = TN_FUNCTION_KIND_COUNT,
-            "function 0: kind is 14; 0 to 13 are possible");
+            "function 0: kind is 15; 0 to 14 are possible");
     REFUSED(FUNCTION, tn_function_record, 1, stack_max = 1, "the stack passes the 1 that the function declares");
     REFUSED(FUNCTION, tn_function_record, 1, code_begin = 0, "not the stretch after the one before");
     REFUSED(FUNCTION, tn_function_record, 3, code_end = UINT32_MAX, "not the stretch after the one before");
@@ -324,8 +324,15 @@ static void test_operands(void **state)
     tn_function_kind rule = TN_FUNCTION_HOLDS, condition = TN_FUNCTION_CONDITION;
     expect(with_code(rule, 9, CODE(TN_OP_TRAY, 1, 0, RETURN)), TN_OK, NULL);
     expect(with_code(rule, 9, CODE(TN_OP_TRAY, 2, 0, RETURN)), TN_INVALID, "there is no spec 2");
-    expect(with_code(rule, 9, CODE(TN_OP_CALL, 4, 0, RETURN)), TN_INVALID, "function 4, which is not a lower one");
-    expect(with_code(rule, 9, CODE(TN_OP_CALL, 5, 0, RETURN)), TN_INVALID, "there is no function 5");
+    expect(with_code(rule, 9, CODE(TN_OP_CALL, 5, 0, RETURN)), TN_INVALID, "function 5, which is not a lower one");
+    expect(with_code(rule, 9, CODE(TN_OP_CALL, 6, 0, RETURN)), TN_INVALID, "there is no function 6");
+    expect(with_code(rule, 9, CODE(TN_OP_CALL, 4, 0, RETURN)), TN_OK, NULL);
+    expect(with_code(rule, 9, CODE(TN_OP_AGAIN, 4, 0, RETURN)), TN_INVALID, "is not in a circle with it");
+    expect(with_code(TN_FUNCTION_CIRCLE, 9, CODE(TN_OP_AGAIN, 1, 0, RETURN)), TN_INVALID, "is not in a circle with it");
+    expect(with_code(TN_FUNCTION_CIRCLE, 9, CODE(TN_OP_AGAIN, 5, 0, RETURN)), TN_OK, NULL);
+    expect(with_code(rule, 9, CODE(TN_OP_CALL, 1, 0, TN_OP_REPEATED, 2, 0, RETURN)), TN_OK, NULL);
+    expect(with_code(rule, 9, CODE(TN_OP_CALL, 1, 0, TN_OP_REPEATED, 0, 2, RETURN)), TN_INVALID, "is cut into 1 to");
+    expect(with_code(rule, 9, CODE(TN_OP_CALL, 1, 0, TN_OP_REPEATED, 3, 2, RETURN)), TN_INVALID, "is cut into 1 to");
     expect(with_code(rule, 9, CODE(TN_OP_MIRROR, 0, 0, RETURN)), TN_INVALID, "function 0, which is not part of a rule");
     expect(with_code(rule, 9, CODE(TN_OP_CALL, 1, 0, TN_OP_QUANTITY, 1, 0, RETURN)), TN_INVALID,
            "function 1 is no condition");

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "runtime/plan/library/ranking.h"
+#include "runtime/plan/library/rank.h"
 #include "tests/support/test_library.h"
 
 typedef struct brute_count {

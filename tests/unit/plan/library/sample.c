@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "runtime/base/integers.h"
-#include "runtime/plan/library/sample_shares.h"
+#include "runtime/plan/library/sample.h"
 #include "tests/support/test_library.h"
 
 #define RANKS_MAX 2000

@@ -132,6 +132,46 @@ SIDE(symmetric_other_way)
     op(b, TN_OP_SOMEWHERE);
 }
 
+/* Two or three non-empty stretches, and any number of them. */
+SIDE(repeated)
+{
+    UNUSED;
+    call(b, f[M1]);
+    tn_builder_emit(b, TN_OP_REPEATED, 2, 3);
+}
+
+SIDE(chained_twice_or_thrice)
+{
+    UNUSED;
+    call(b, f[M1]);
+    op(b, TN_OP_NONEMPTY);
+    call(b, f[M1]);
+    op(b, TN_OP_NONEMPTY);
+    op(b, TN_OP_CHAIN);
+    call(b, f[M1]);
+    op(b, TN_OP_NONEMPTY);
+    op(b, TN_OP_OPTIONAL);
+    op(b, TN_OP_CHAIN);
+}
+
+SIDE(repeated_and_once_more)
+{
+    UNUSED;
+    call(b, f[M1]);
+    tn_builder_emit(b, TN_OP_REPEATED, 1, 0);
+    call(b, f[M1]);
+    op(b, TN_OP_NONEMPTY);
+    op(b, TN_OP_OPTIONAL);
+    op(b, TN_OP_CHAIN);
+}
+
+SIDE(repeated_without_end)
+{
+    UNUSED;
+    call(b, f[M1]);
+    tn_builder_emit(b, TN_OP_REPEATED, 1, 0);
+}
+
 SIDE(chain_three_left)
 {
     UNUSED;
@@ -225,6 +265,8 @@ static const law laws[] = {
     {"no occurrence", none_of_tray, zero_occurrences},
     {"symmetric", symmetric, symmetric_other_way},
     {"chains associate", chain_three_left, chain_three_right},
+    {"two or three", repeated, chained_twice_or_thrice},
+    {"once more", repeated_without_end, repeated_and_once_more},
     {"beginning and end", ends_whole, plan_whole},
     {"optional", optional, optional_nonempty},
     {"chains distribute", chain_either, either_chain},
