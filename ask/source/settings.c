@@ -3,8 +3,7 @@
 #include <string.h>
 
 #include "ask/session/questions.h"
-#include "ask/source/place.h"
-#include "compiler/common/diagnostic.h"
+#include "ask/source/check.h"
 #include "compiler/common/lexical.h"
 #include "compiler/common/token.h"
 #include "compiler/compile.h"

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "driver/breed/beside.h"
+#include "driver/breed/box_text.h"
 #include "driver/breed/inputs.h"
 #include "driver/solid/solid.h"
 #include "runtime/base/buffer.h"

@@ -8,7 +8,6 @@
 #include <sys/stat.h>
 
 #include "driver/open/missing.h"
-#include "driver/open/suggest_file.h"
 #include "driver/parquet/parquet.h"
 #include "driver/shards/record.h"
 #include "driver/zstd/zstd.h"

@@ -72,6 +72,9 @@ typedef struct tn_house {
     bool tiles_left_out;   /* by the line that it was read from: each cell has the first that fits */
 } tn_house;
 
+/* Calls back with a house, which is borrowed for the call, until *stop. */
+typedef tn_status tn_house_each(void *context, const tn_house *house, bool *stop, tn_error *error);
+
 /* Stands a plan up: its cells and faces, without functions and with walls everywhere. The trays are copied. */
 tn_status tn_house_stand(const tn_house_form *form, const tn_tray *trays, size_t length, const uint32_t *shapes,
                          tn_house *house, tn_error *error);

@@ -7,7 +7,7 @@
  *   birth       id, kind, parent, other, state, fitness, more (the further numbers of the score, 8 bytes each), message
  *   event       generation, number, kind, text, before that generation is bred: choose (places, from 1), set (a target,
  *               weight or another number), left (who left by the change before it), inputs (what scores depend on),
- *               insert, edit and remove (driver/hand/by_hand.h); warning (what the first generation shows)
+ *               insert, edit and remove (driver/hand/hand.h); warning (what the first generation shows)
  *   rescore     generation, id, state, fitness, more: the members' scores after a set
  *
  * Genomes are not stored: births are functions of parents, settings and seed, and replaying is exact. Nothing stored

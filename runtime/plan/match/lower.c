@@ -162,6 +162,7 @@ static void term_clear(tn_term *term)
         tn_dfa_free(term->stack[--term->depth]);
     free(term->stack);
     free(term->nodes);
+    *term = (tn_term){0};
 }
 
 static tn_status term_read(const tn_module *module, uint32_t function, bool plain, tn_term *term, tn_error *error)
