@@ -10,6 +10,7 @@
 #include "runtime/growth/faults.h"
 #include "runtime/growth/growth.h"
 #include "runtime/growth/soundness.h"
+#include "runtime/growth/surface.h"
 
 /* ---- how a surface grows: options and surroundings, from a module and from the caller */
 

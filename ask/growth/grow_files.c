@@ -7,6 +7,7 @@
 #include "ask/session/made.h"
 #include "driver/mesh/mesh_file.h"
 #include "runtime/growth/growth.h"
+#include "runtime/growth/surface.h"
 #include "runtime/scene/apng.h"
 
 enum { NOTE_SIZE = 240 };

@@ -15,6 +15,7 @@
 #include "runtime/growth/picture/draw.h"
 #include "runtime/growth/soundness.h"
 #include "runtime/growth/study.h"
+#include "runtime/growth/surface.h"
 #include "runtime/mesh/openmesh.h"
 #include "runtime/number/run.h"
 

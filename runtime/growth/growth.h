@@ -9,7 +9,6 @@
 #ifndef TARTAN_GROWTH_GROWTH_H
 #define TARTAN_GROWTH_GROWTH_H
 
-#include "runtime/geometry/mesh.h"
 #include "runtime/growth/environment/environment.h"
 #include "runtime/growth/model/map.h"
 #include "runtime/growth/model/options.h"
@@ -48,16 +47,5 @@ tn_growth_counts tn_growth_last_counts(const tn_growth *growth); /* of the last 
 /* Did the last step leave everything as it was, with nothing random in the system? Then no later step changes anything.
  */
 bool tn_growth_at_rest(const tn_growth *growth);
-
-/* A grown map as a mesh: vertices in order of creation; faces by their lowest (edge, side), starting there. */
-
-typedef struct tn_surface_options {
-    bool groups; /* a face belongs to the label and age of its lowest edge, a line to its own */
-    bool lines;  /* edges too */
-    bool layers; /* lines are grouped by their label alone; faces are not */
-} tn_surface_options;
-
-/* Makes the mesh, which the caller clears. */
-tn_status tn_surface_mesh(const tn_growth *growth, const tn_surface_options *options, tn_mesh *mesh, tn_error *error);
 
 #endif

@@ -10,6 +10,7 @@
 #include "runtime/geometry/vector.h"
 #include "runtime/growth/faults.h"
 #include "runtime/growth/growth.h"
+#include "runtime/growth/surface.h"
 #include "runtime/math/elementary.h"
 
 /* ==== measures what light falls on: each triangle, as the sun sees it, less those that are nearer to the sun */

@@ -12,6 +12,7 @@
 #include "runtime/growth/picture/draw.h"
 #include "runtime/growth/stats.h"
 #include "runtime/growth/study.h"
+#include "runtime/growth/surface.h"
 #include "runtime/mesh/openmesh.h"
 
 enum { GROW_STEPS = 4, GROW_EDGES = 60, GROW_CODE = 6000 };

@@ -9,7 +9,6 @@
 #include "runtime/base/bytes.h"
 #include "runtime/base/utf8.h"
 #include "runtime/growth/model/system.h"
-#include "runtime/growth/model/turtle.h"
 #include "runtime/module/engine.h"
 #include "runtime/module/lister.h"
 #include "runtime/module/verify.h"

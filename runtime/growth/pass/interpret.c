@@ -5,7 +5,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/base/random.h"
-#include "runtime/growth/model/turtle.h"
+#include "runtime/growth/model/system.h"
 #include "runtime/growth/pass/pass.h"
 #include "runtime/growth/pass/rows.h"
 

@@ -8,7 +8,7 @@
 
 #include "runtime/module/code.h"
 #include "runtime/module/engine.h"
-#include "runtime/place/model/frame.h"
+#include "runtime/place/model/turns.h"
 #include "runtime/place/model/terms.h"
 
 /* ==== decodes the productions of a connection grammar into symbols, alternatives and steps */

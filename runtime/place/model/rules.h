@@ -12,7 +12,7 @@ typedef enum tn_step_kind {
     TN_STEP_PUSH,       /* ( : copies the frame */
     TN_STEP_POP,        /* ) : drops it */
     TN_STEP_MOVE,       /* by a[0..2], turned by the heading */
-    TN_STEP_TURN,       /* by the turn a[0] (frame.h) */
+    TN_STEP_TURN,       /* by the turn a[0] (turns.h) */
     TN_STEP_COLOUR,     /* a[0] */
     TN_STEP_PART,       /* records the part `text`; fills nothing */
     TN_STEP_FILL,       /* a box of a[0] x a[1] x a[2], which must be free */

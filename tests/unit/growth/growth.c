@@ -15,6 +15,7 @@
 #include "runtime/growth/growth.h"
 #include "runtime/growth/stats.h"
 #include "runtime/growth/study.h"
+#include "runtime/growth/surface.h"
 #include "runtime/load.h"
 #include "runtime/mesh/openmesh.h"
 #include "tests/support/compile_file.h"

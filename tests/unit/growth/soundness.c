@@ -16,6 +16,7 @@
 #include "runtime/growth/growth.h"
 #include "runtime/growth/soundness.h"
 #include "runtime/growth/study.h"
+#include "runtime/growth/surface.h"
 #include "runtime/load.h"
 #include "tests/support/compile_file.h"
 
