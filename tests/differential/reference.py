@@ -63,6 +63,8 @@ class Schema:
             raise Unknown("a number with more cases")
         self.numbers.update(before.numbers if before else {})
         self.forbidden = (before.forbidden if before else []) + [f.child("specifier") for f in find_all(body, "forbid")]
+        if None in self.forbidden:
+            raise Unknown("what is forbidden is more than a specifier")
         every = itertools.product(*[values for _, _, values in self.fields])
         self.trays = [t for t in every if not any(self.meets(s, t, {}) for s in self.forbidden)]
 
@@ -254,9 +256,14 @@ class Plan:
 
     def __init__(self, file, schema, trays):
         self.file, self.schema, self.trays, self.n, self.memo, self._back = file, schema, trays, len(trays), {}, None
+        self.least = {}                                   # of circles of rules: (which, name, i, j) that are true
 
     def holds(self, e):
         return self.H(e, Env(), 0, self.n)
+
+    def meets(self, name):
+        """Does a match of the rule lie in the plan?"""
+        return rule_holds(self, name, "H", 0, self.n)
 
     def remember(self, how, which, e, env, i, j):
         key = (which, id(e), env, i, j)
@@ -276,6 +283,27 @@ class Plan:
 
     def one(self, e, env, t):
         return self.M(e, env, t, t + 1)
+
+    def in_circle(self, which, name, i, j):
+        """Of rules that use themselves: the least that they say of one another. At first all are false, then what they say with that is
+        true, for as long as more becomes so."""
+        circle = self.file.circles[name]
+        if circle not in self.least:
+            known, self.least[circle] = self.memo, frozenset()
+            every = [(w, n, a, b) for w in "MH" for n in circle for a in range(self.n + 1) for b in range(a, self.n + 1)]
+            try:
+                while True:
+                    self.memo = {}
+                    found = frozenset(k for k in every if getattr(self, k[0])(self.file.rules[k[1]][1], Env(), k[2], k[3]))
+                    if found == self.least[circle]:
+                        break
+                    self.least[circle] = found
+            except Unknown:
+                del self.least[circle]
+                raise
+            finally:
+                self.memo = known
+        return (which, name, i, j) in self.least[circle]
 
     @property
     def back(self):
@@ -355,6 +383,7 @@ def neighbour(plan, e, env, i, j):
         else:
             optional = x.name == "primary: OPTIONAL OPEN expression CLOSE"
             inner = x.children[2] if optional else x
+            optional = optional or is_repeat(plan, x) and times(plan, x, env)[0] == 0
             cuts = {(b, True) for a, _ in cuts for b in range(a + 1, j + 1) if plan.M(inner, env, a, b)} | (cuts if optional else set())
     return (j, True) in cuts
 
@@ -391,6 +420,30 @@ def sum_of(plan, e, env, i, j):
 
 def many(plan, e, env, i, j):
     return i < j and all(plan.one(e.children[2], env, t) for t in range(i, j))
+
+
+def is_repeat(plan, e):
+    return e.name == "primary: NAME OPEN call_args CLOSE" and e.children[0].text == "repeat" and not plan.file.has_params("repeat")
+
+
+def times(plan, e, env):
+    """(at least, at most or None) of a `repeat`."""
+    often = core(find_all(e.child("call_args"), "call_arg")[1])
+    ends = [c for c in often.children if c.symbol == "additive"] if "DOTS" in often.name else [often, often]
+    numbers = [plan.value(end, env) for end in ends]
+    return numbers[0], numbers[1] if len(numbers) == 2 else None
+
+
+def repeat(plan, e, env, i, j):
+    """Stretches side by side: after each further one these may end there."""
+    inner = find_all(e.child("call_args"), "call_arg")[0]
+    low, high = times(plan, e, env)
+    ends, number = {i}, 0
+    while ends and (high is None or number < high):
+        ends, number = {b for a in ends for b in range(a + 1, j + 1) if plan.M(inner, env, a, b)}, number + 1
+        if number >= low and j in ends:
+            return True
+    return False
 
 
 def distance(plan, e, env, i, j):
@@ -528,26 +581,34 @@ def named(which):
         given = env.get(name)
         if given is not None:
             return getattr(plan, which)(given[0], given[1], i, j)
-        return getattr(plan, which)(plan.file.rule(name)[1], Env(), i, j)
+        return rule_holds(plan, name, which, i, j)
     return matches
+
+
+def rule_holds(plan, name, which, i, j):
+    if name in plan.file.circles:
+        return plan.in_circle(which, name, i, j)
+    return getattr(plan, which)(plan.file.rule(name)[1], Env(), i, j)
 
 
 def own_fields(plan, e, env):
     """The fields that `values` or `mirrored` is about; None where the file has a rule of that name."""
-    if e.children[0].text not in ("values", "mirrored") or plan.file.rules.get(e.children[0].text, ([],))[0]:
+    if e.children[0].text not in ("values", "mirrored") or plan.file.has_params(e.children[0].text):
         return None
-    named = [words(a)[0] for a in find_all(e.child("call_args"), "expression")]
+    named = [words(a)[0] for a in find_all(e.child("call_args"), "call_arg")]
     named = [env.get(n)[1] if env.get(n) else n for n in named]
     return [plan.schema.index(n) for n in named]
 
 
 def called(which):
     def matches(plan, e, env, i, j):
+        if is_repeat(plan, e):
+            return (repeat if which == "M" else somewhere)(plan, e, env, i, j)
         fields = own_fields(plan, e, env)
         if fields is not None:
             return all(plan.trays[i + t][f] == plan.trays[j - 1 - t][f] for t in range(j - i) for f in fields)
         params, body = plan.file.rule(e.children[0].text)
-        arguments = find_all(e.child("call_args"), "expression")
+        arguments = find_all(e.child("call_args"), "call_arg")
         inner = Env((name, plan.file.argument(plan, a, kind, env)) for (name, kind), a in zip(params, arguments))
         return getattr(plan, which)(body, inner, i, j)
     return matches
@@ -724,6 +785,27 @@ CONDITIONS["cond_ands: cond_ands AND cond_not"] = CONDITIONS["cond_ands: cond_no
 
 # ---- a file
 
+def names_used(node):
+    """The names that may be rules."""
+    if node.name in ("primary: NAME", "primary: NAME OPEN call_args CLOSE"):
+        return {node.children[0].text}.union(*map(names_used, node.children))
+    return set().union(*map(names_used, node.children))
+
+
+def of_rules(items):
+    """{name: (names of its parameters, expression)}"""
+    heads = [(item.child("rule_head"), item.child("expression")) for item in items if item.production.symbols[0] == "rule_head"]
+    return {head.child("NAME").text: (words(head.child("params"))[1:-1:2], body) for head, body in heads}
+
+
+def circles(uses):
+    """{name: the names of its circle} of those that use themselves, also by way of others."""
+    reached = {name: used & set(uses) for name, used in uses.items()}
+    for _ in uses:
+        reached = {name: used.union(*(reached[n] for n in used)) for name, used in reached.items()}
+    return {name: frozenset(n for n in used if name in reached[n]) for name, used in reached.items() if name in used}
+
+
 class File:
     """What a file says about one of its schemas."""
 
@@ -736,13 +818,16 @@ class File:
         self.rules, self.sums, self.libraries, self.sides = {}, {}, {}, {}
         for item in self.items:
             self._declare(item)
+        self.rules.update(of_rules(self.items))
+        self.circles = circles({name: used for name, (params, body) in self.rules.items() for used in [names_used(body) - set(params)]})
+
+    def has_params(self, name):
+        """Is it a rule that has parameters? Such a one hides what the language has itself."""
+        return bool(self.rules.get(name, ([],))[0])
 
     def _declare(self, item):
         kind = item.production.symbols[0]
-        if kind == "rule_head":
-            head = item.child("rule_head")
-            self.rules[head.child("NAME").text] = (words(head.child("params"))[1:-1:2], item.child("expression"))
-        elif kind == "param" and item.child("param_words"):
+        if kind == "param" and item.child("param_words"):
             self.sides[item.child("NAME").text] = words(item.child("param_words"))[0]
         elif kind in ("measure", "let", "param"):
             self.sums[item.child("NAME").text] = item.child("additive") or item.child("expression")
@@ -807,11 +892,20 @@ class File:
         kind = clause.production.symbols[0]
         if kind == "require_word":
             return all(plan.holds(r.children[0]) for r in find_all(clause, "require"))
+        if kind == "generate_word":
+            return self.generates(plan, clause)
         if kind == "prune_word":
             return not any(plan.holds(p.children[0]) for p in find_all(clause, "prune"))
         if kind == "total_word":
             return self.total(plan, clause)
         return True
+
+    def generates(self, plan, clause):
+        return plan.M(clause.child("require").children[0], Env(), 0, plan.n)
+
+    def generate(self, name):
+        """The clause that says what plans are made of, or None."""
+        return next((c for c in self.clauses(name) if c.production.symbols[0] == "generate_word"), None)
 
     def preferences(self, name):
         """(expression, worth) of those of the library."""
