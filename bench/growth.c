@@ -12,10 +12,10 @@
 
 #include "bench/bench.h"
 #include "compiler/compile.h"
-#include "runtime/numeric/numeric.h"
 #include "runtime/growth/growth.h"
 #include "runtime/growth/study.h"
 #include "runtime/load.h"
+#include "runtime/math/elementary.h"
 
 static int compare(const void *a, const void *b)
 {

@@ -18,8 +18,7 @@
 #include "runtime/geometry/write.h"
 #include "runtime/house/model/model.h"
 #include "runtime/house/rank/rank.h"
-#include "runtime/house/variant/change.h"
-#include "runtime/house/variant/variant.h"
+#include "runtime/house/rule/change.h"
 
 #define CLOCK CLOCK_PROCESS_CPUTIME_ID
 
@@ -92,49 +91,8 @@ static tn_houses *count_all(const subject *s)
 
 /* ---- count */
 
-static tn_house_variants *new_variants(const subject *s)
-{
-    tn_house_variants *variants;
-    tn_error error = {0};
-    must(tn_house_variants_new(&s->form, s->library, 0, &variants, &error), &error);
-    return variants;
-}
-
-/* Plan by plan, in so many steps for each. TN_LIMIT where one takes more. */
-static tn_status count_each(const subject *s, uint64_t work, mpz_t count, tn_error *error)
-{
-    tn_cursor *cursor;
-    const tn_tray *trays;
-    uint32_t length;
-    tn_house_counts counts;
-    tn_house_variants *variants;
-    mpz_t from, to;
-    must(tn_house_variants_new(&s->form, s->library, work, &variants, error), error);
-    mpz_inits(from, to, NULL);
-    tn_house_counts_init(&counts);
-    tn_library_kept(s->plans, TN_ALL_LENGTHS, to);
-    must(tn_cursor_new(s->plans, from, to, &cursor, error), error);
-    tn_status status = TN_OK;
-    while (status == TN_OK && tn_cursor_next(cursor, &trays, &length))
-        status = tn_house_variants_count(variants, trays, length, &counts, error);
-    mpz_set(count, counts.houses);
-    mpz_clears(from, to, NULL);
-    tn_house_counts_clear(&counts);
-    tn_cursor_free(cursor);
-    tn_house_variants_free(variants);
-    return status;
-}
-
-/* As `tartan count` does: plan by plan if there are few and none takes long, otherwise all together. */
 static void count_houses(const subject *s, mpz_t count)
 {
-    enum { QUICK = 1000 }; /* steps */
-    tn_error error = {0};
-    tn_status status = count_each(s, QUICK, count, &error);
-    if (status == TN_OK)
-        return;
-    if (status != TN_LIMIT)
-        must(status, &error);
     tn_houses *houses = count_all(s);
     tn_houses_count(houses, TN_ALL_LENGTHS, count);
     tn_houses_free(houses);
@@ -175,25 +133,34 @@ static void bench_count(char **paths, size_t files)
 
 /* ---- plan */
 
+static tn_houses *count_on(const subject *s, const tn_plan *plan)
+{
+    const tn_houses_what what = {.only = plan->trays, .length = (uint32_t)plan->length};
+    tn_houses *houses;
+    tn_error error = {0};
+    must(tn_houses_of(&s->form, s->library, s->plans, &what, 0, &houses, &error), &error);
+    return houses;
+}
+
 static void bench_plan(const subject *s, const char *line, size_t runs)
 {
     tn_plan plan = {0};
     tn_error error = {0};
-    tn_house_counts counts;
+    mpz_t count, faced;
     double *times = new_times(runs);
+    mpz_inits(count, faced, NULL);
     must(tn_plan_parse_line(s->schema, line, strlen(line), 64, &plan, &error), &error);
     for (size_t i = 0; i < runs; i++) {
         double begun = seconds(CLOCK);
-        tn_house_variants *variants = new_variants(s); /* which may remember */
-        tn_house_counts_init(&counts);
-        must(tn_house_variants_count(variants, plan.trays, plan.length, &counts, &error), &error);
-        tn_house_variants_free(variants);
+        tn_houses *houses = count_on(s, &plan);
+        tn_houses_count(houses, TN_ALL_LENGTHS, count);
+        tn_houses_faced(houses, faced);
+        tn_houses_free(houses);
         times[i] = seconds(CLOCK) - begun;
-        if (i == 0)
-            gmp_printf("%ju %Zd ", (uintmax_t)counts.faced, counts.houses);
-        tn_house_counts_clear(&counts);
     }
+    gmp_printf("%Zd %Zd ", faced, count);
     printf("%.9f\n", median(times, runs));
+    mpz_clears(count, faced, NULL);
     free(plan.trays);
     free(times);
 }
@@ -202,7 +169,6 @@ static void bench_plan(const subject *s, const char *line, size_t runs)
 
 typedef struct drawn {
     tn_houses *all;
-    tn_house_variants *variants;
     tn_house_ranks *by_rank;
     mpz_t *ranks;
     size_t count;
@@ -214,11 +180,11 @@ static void draw(const subject *s, size_t count, drawn *d)
     mpz_t bound;
     tn_error error = {0};
     mpz_init(bound);
-    *d = (drawn){.all = count_all(s), .variants = new_variants(s), .ranks = malloc((count + 1) * sizeof *d->ranks)};
+    *d = (drawn){.all = count_all(s), .ranks = malloc((count + 1) * sizeof *d->ranks)};
     d->trays = malloc(((size_t)tn_library_max(s->plans) + 1) * sizeof *d->trays);
     if (!d->ranks || !d->trays)
         stop("out of memory");
-    must(tn_house_ranks_new(d->all, d->variants, &d->by_rank, &error), &error);
+    must(tn_house_ranks_new(d->all, &d->by_rank, &error), &error);
     for (size_t i = 0; i < count; i++)
         mpz_init(d->ranks[i]);
     tn_houses_count(d->all, TN_ALL_LENGTHS, bound);
@@ -248,7 +214,6 @@ static void drawn_clear(drawn *d)
     free(d->ranks);
     free(d->trays);
     tn_house_ranks_free(d->by_rank);
-    tn_house_variants_free(d->variants);
     tn_houses_free(d->all);
 }
 
@@ -398,19 +363,20 @@ static tn_status count_near(void *context, const tn_house *house, bool *stop_her
 /* False: the library has too many houses on the plan to look at all of them. */
 static bool find_near(const subject *s, near_houses *n)
 {
-    mpz_t first;
+    const tn_plan plan = {.trays = n->house->trays, .length = n->house->length};
+    mpz_t count, first;
     tn_error error = {0};
-    tn_house_counts counts;
-    tn_house_variants *variants = new_variants(s);
-    mpz_init(first);
-    tn_house_counts_init(&counts);
-    must(tn_house_variants_count(variants, n->house->trays, n->house->length, &counts, &error), &error);
-    bool few = mpz_cmp_ui(counts.houses, 1000000) <= 0;
+    tn_plan_houses *on_plan;
+    tn_houses *houses = count_on(s, &plan);
+    mpz_inits(count, first, NULL);
+    tn_houses_count(houses, TN_ALL_LENGTHS, count);
+    bool few = mpz_cmp_ui(count, 1000000) <= 0;
+    must(tn_plan_houses_new(houses, plan.trays, (uint32_t)plan.length, &on_plan, &error), &error);
     if (few)
-        must(tn_house_variants_each(variants, n->house->trays, n->house->length, first, count_near, n, &error), &error);
-    tn_house_counts_clear(&counts);
-    mpz_clear(first);
-    tn_house_variants_free(variants);
+        must(tn_plan_houses_each(on_plan, first, count_near, n, &error), &error);
+    tn_plan_houses_free(on_plan);
+    tn_houses_free(houses);
+    mpz_clears(count, first, NULL);
     return few;
 }
 

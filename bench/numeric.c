@@ -1,6 +1,6 @@
 /* How long elementary functions take: numeric RUNS
  *
- * Computes each function of runtime/numeric for rows of 256 numbers, and by the functions of version 1 of the
+ * Computes each function of runtime/math for rows of 256 numbers, and by the functions of version 1 of the
  * arithmetic (bench/before), one number at a time. Prints the function, the range of its arguments, and the nanoseconds
  * of one number by rows, one at a time, and by version 1: medians of RUNS. */
 #include <stdint.h>
@@ -10,7 +10,7 @@
 #include "bench/before/numeric.h"
 #include "bench/bench.h"
 #include "runtime/base/random.h"
-#include "runtime/numeric/numeric.h"
+#include "runtime/math/elementary.h"
 
 enum { ROW = 256, ROWS = 64, RUNS_MAX = 101 };
 

@@ -3,11 +3,11 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "ask/describe.h"
+#include "ask/questions.h"
+#include "cli/commands.h"
 #include "cli/common/completion.h"
 #include "cli/common/help.h"
 #include "cli/common/job.h"
-#include "cli/common/manual.h"
 #include "cli/common/program.h"
 
 /* Questions that a command of another name asks. */
@@ -37,15 +37,15 @@ static int unknown_command(const char *name, int count, char **words)
 {
     const tn_settings settings = {.diagnostics = tn_options_diagnostics(count, words)};
     const char *names[64];
-    for (size_t i = 0; i < tn_commands_count; i++)
-        names[i] = tn_commands[i]->name;
+    for (size_t i = 0; i < tn_all_commands.count; i++)
+        names[i] = tn_all_commands.items[i]->name;
     tn_error error;
     tn_fail(&error, TN_INVALID, E_USAGE,
             name[0] == '-' ? "`tartan` has no option %.60s" : "there is no command `%.60s`", name);
-    const char *near = tn_nearest(name, names, tn_commands_count), *later = NULL;
+    const char *near = tn_nearest(name, names, tn_all_commands.count), *later = NULL;
     const char *otherwise = command_that_asks(name);
     for (int i = 0; i < count && !later; i++)
-        later = tn_command_find(words[i]) ? words[i] : NULL;
+        later = tn_command_find(&tn_all_commands, words[i]) ? words[i] : NULL;
     if (otherwise)
         tn_error_help(&error, "that is what %s is for", otherwise);
     else if (near)
@@ -62,17 +62,17 @@ static int unknown_command(const char *name, int count, char **words)
 /* `manual`: as a manual page (the build installs them), not for reading here. */
 static int help(const char *name, bool manual)
 {
-    const tn_command *command = name ? tn_command_find(name) : NULL;
+    const tn_command *command = name ? tn_command_find(&tn_all_commands, name) : NULL;
     if (name && !command)
         return unknown_command(name, 0, NULL);
     if (manual && command)
         tn_manual_command(command, stdout);
     else if (manual)
-        tn_manual_overview(stdout);
+        tn_manual_overview(&tn_all_commands, stdout);
     else if (command)
         tn_help_command(command, stdout);
     else
-        tn_help_overview(stdout);
+        tn_help_overview(&tn_all_commands, stdout);
     return tn_program_printed();
 }
 
@@ -81,7 +81,7 @@ static int completion(const char *name)
 {
     const tn_shell *shell = name ? tn_shell_find(name) : NULL;
     if (shell) {
-        shell->write(stdout);
+        shell->write(&tn_all_commands, stdout);
         return tn_program_printed();
     }
     const tn_settings settings = {0};
@@ -116,7 +116,7 @@ int main(int argc, char **argv)
 {
     tn_program_begin();
     if (argc < 2) {
-        tn_help_overview(stderr);
+        tn_help_overview(&tn_all_commands, stderr);
         return TN_EXIT_USAGE;
     }
     const char *name = argv[1];
@@ -134,6 +134,7 @@ int main(int argc, char **argv)
         puts("tartan " TARTAN_VERSION);
         return tn_program_printed();
     }
-    const tn_command *command = tn_command_find(name);
-    return command ? tn_program_run(command, argc - 2, argv + 2, NULL) : unknown_command(name, argc - 2, argv + 2);
+    const tn_command *command = tn_command_find(&tn_all_commands, name);
+    return command ? tn_program_run(&tn_all_commands, command, argc - 2, argv + 2, NULL)
+                   : unknown_command(name, argc - 2, argv + 2);
 }

@@ -2,7 +2,7 @@
 # tools/manual-page makes a page a notation of that notation's page of docs.
 set(TARTAN_WRITTEN ${PROJECT_BINARY_DIR}/written)
 file(MAKE_DIRECTORY ${TARTAN_WRITTEN})
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS cli/common/commands.def compiler/notations.def)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS cli/commands.def compiler/notations.def)
 set(TARTAN_WRITTEN_FILES "")
 set(TARTAN_PRINTED "") # by the binary, all in one step
 set(TARTAN_PRINTING "")
@@ -15,7 +15,7 @@ macro(tartan_writes name folder)
 endmacro()
 
 tartan_writes(tartan.1 ${CMAKE_INSTALL_MANDIR}/man1 --man)
-file(STRINGS cli/common/commands.def rows REGEX "^COMMAND")
+file(STRINGS cli/commands.def rows REGEX "^COMMAND")
 foreach(row ${rows})
   string(REGEX REPLACE "COMMAND\\((.*)\\).*" "\\1" command ${row})
   string(REPLACE "_" "-" command ${command})

@@ -10,10 +10,10 @@
 #define TARTAN_COMPILER_FORMAT_H
 
 #include "compiler/common/diagnostic.h"
-#include "compiler/notation.h"
+#include "compiler/compile.h"
 
 /* Formats a file's text; `path` is its name in diagnostics. *formatted, zero-ended, is the caller's to free().
- * The text is added to the diagnostics' sources. TN_INVALID where it has errors of syntax, TN_LIMIT, TN_MEMORY: all
+ * The text is added to the diagnostics' sources. TN_INVALID if it has errors of syntax, TN_LIMIT, TN_MEMORY: all
  * reported, and *formatted is NULL. */
 tn_status tn_format_text(tn_diagnostics *diagnostics, const tn_notation *notation, const char *path, const char *text,
                          size_t size, char **formatted, size_t *formatted_size);

@@ -15,7 +15,6 @@
 }
 %code {
 #include "compiler/common/lexical.h"
-#include "compiler/common/lexical.h"
 #include "evolution_lexer.h"
 
 int tn_evolution_yy_lex(TN_EVOLUTION_YY_STYPE *value, tn_span *span, void *scanner);

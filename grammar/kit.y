@@ -11,7 +11,7 @@
 %expect 0
 
 %code requires {
-#include "compiler/kit/ast.h"
+#include "compiler/kit/kit.h"
 }
 
 %parse-param {tn_growth_parse *parse} {void *scanner}

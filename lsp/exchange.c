@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "lsp/features.h"
-#include "runtime/base/clock.h"
+#include "runtime/base/watch.h"
 
 /* Error codes of JSON-RPC and of the protocol. */
 enum {

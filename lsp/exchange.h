@@ -1,6 +1,6 @@
 /* The language server without streams or threads of its own: messages of the Language Server Protocol (version
- * 3.17) go in and come out. Whoever serves it decides what carries them: a pair of streams (lsp.h), a socket, a worker
- * of a browser.
+ * 3.17) go in and come out. Whoever serves it decides what carries them: a pair of streams (serve.h), a socket, a
+ * worker of a browser.
  *
  * Messages are answered in order, as they are taken. What was typed is compiled when an answer needs it or when
  * tn_exchange_work is called, which is when no message waits: so a burst of keystrokes costs one compilation. What

@@ -60,10 +60,6 @@ const tn_occurrence *tn_index_at(const tn_index *index, uint32_t file, size_t of
 /* Of a schema; NULL where it has none of that name. A value is looked for in one field, or, where that is NULL, in the
  * one field that has it. */
 const tn_symbol *tn_index_field(const tn_symbol *schema, const char *name);
-const tn_symbol *tn_index_value(const tn_symbol *schema, const tn_symbol *field, const char *name);
-
-/* A storey, function, opening or tile of a form; NULL where it has none of that name. */
-const tn_symbol *tn_index_part(const tn_symbol *form, const char *name);
 
 /* The schema that a specifier in a rule or library of that name is about; else the last schema there is; or NULL. */
 const tn_symbol *tn_index_schema(const tn_index *index, const char *owner);

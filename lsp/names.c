@@ -2,9 +2,188 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "compiler/common/limits.h"
 #include "compiler/plan/syntax/parse.h"
 #include "lsp/features.h"
-#include "lsp/occurrences.h"
+#include "lsp/workspace.h"
+#include "runtime/base/file.h"
+
+/* `document` is open, or was read for this: it is gone after the call. False ends the visit. */
+typedef bool visit_occurrence(void *context, tn_document *document, tn_span span);
+
+typedef enum tn_visited {
+    TN_VISITED_ALL,
+    TN_VISITED_CUT_OFF, /* the folders have more files than are looked at */
+    TN_VISITED_STOPPED, /* by the visitor, or out of memory */
+} tn_visited;
+
+static inline const char *analysis_path(const tn_file_analysis *analysis, uint32_t file)
+{
+    return analysis->compilation.sources.files[file].path;
+}
+
+/* ---- where a name occurs: in the documents that are open, in what they use, and in the rule files of the editor's
+ * folders that use the same file */
+
+/* Are two paths those of one file? */
+static bool same_file(const char *a, const char *b)
+{
+    if (strcmp(a, b) == 0)
+        return true;
+    char *real_a = realpath(a, NULL), *real_b = realpath(b, NULL);
+    bool same = real_a && real_b && strcmp(real_a, real_b) == 0;
+    free(real_a);
+    free(real_b);
+    return same;
+}
+
+/* The symbol of another document's analysis that is defined at the same place. */
+static const tn_symbol *same_symbol(const tn_file_analysis *analysis, const tn_symbol *symbol,
+                                    const tn_file_analysis *other)
+{
+    if (other == analysis)
+        return symbol;
+    for (const tn_symbol *s = other->index.first; s; s = s->next)
+        if (s->kind == symbol->kind && s->name_span.begin == symbol->name_span.begin &&
+            strcmp(s->name, symbol->name) == 0 &&
+            same_file(analysis_path(analysis, symbol->name_span.file), analysis_path(other, s->name_span.file)))
+            return s;
+    return NULL;
+}
+
+/* Is the file of an occurrence open as a document? Then that document's own analysis has it. */
+static bool is_open(const tn_workspace *workspace, const char *path)
+{
+    for (const tn_document *document = workspace->documents; document; document = document->next)
+        if (same_file(document->path, path))
+            return true;
+    return false;
+}
+
+/* Those in the document itself, and for the asked one also those in files that are not open. */
+static bool visit_document(tn_workspace *workspace, tn_document *asked, const tn_symbol *symbol, tn_document *document,
+                           visit_occurrence *visit, void *context)
+{
+    tn_file_analysis *other = tn_workspace_analyse(workspace, document);
+    const tn_symbol *same = other ? same_symbol(asked->analysis, symbol, other) : NULL;
+    for (size_t i = 0; same && i < other->index.count; i++) {
+        const tn_occurrence *occurrence = &other->index.occurrences[i];
+        bool own = occurrence->span.file == 0;
+        if (occurrence->symbol != same || (!own && document != asked))
+            continue;
+        if (!own && is_open(workspace, analysis_path(other, occurrence->span.file)))
+            continue;
+        if (!visit(context, document, occurrence->span))
+            return false;
+    }
+    return true;
+}
+
+/* ---- files that are not open */
+
+static bool is_used(const tn_file_analysis *analysis, const char *path)
+{
+    const tn_imports *imports = analysis->compilation.imports;
+    for (size_t i = 0; imports && i < imports->count; i++)
+        if (strcmp(imports->units[i]->identity, path) == 0)
+            return true;
+    return false;
+}
+
+static tn_status read_file(const tn_workspace *workspace, const char *path, uint8_t **bytes, size_t *size,
+                           tn_error *error)
+{
+    const tn_served *served = workspace->served;
+    return served ? served->read(served->context, path, bytes, size, error)
+                  : tn_file_read(path, TN_SOURCE_BYTES_MAX, bytes, size, error);
+}
+
+/* Most files do not have the name at all: those are not compiled. */
+static bool visit_file(tn_workspace *workspace, tn_document *asked, const tn_symbol *symbol, const char *path,
+                       visit_occurrence *visit, void *context)
+{
+    tn_error error;
+    uint8_t *bytes = NULL;
+    size_t size = 0;
+    bool good = true;
+    if (is_open(workspace, path) || is_used(asked->analysis, path) ||
+        read_file(workspace, path, &bytes, &size, &error) != TN_OK)
+        return true;
+    if (memmem(bytes, size, symbol->name, strlen(symbol->name))) {
+        tn_document document = {.uri = tn_path_uri(path), .path = strdup(path), .text = (char *)bytes, .size = size};
+        good = document.uri && document.path && visit_document(workspace, asked, symbol, &document, visit, context);
+        tn_analysis_free(document.analysis);
+        free(document.uri);
+        free(document.path);
+    }
+    free(bytes);
+    return good;
+}
+
+static int compare_paths(const void *a, const void *b)
+{
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+static void list_served(const tn_served *served, tn_rule_files *files)
+{
+    tn_error error;
+    if (served->read && served->list)
+        files->failed =
+            served->list(served->context, &files->paths, &files->count, &files->cut_off, &error) == TN_MEMORY;
+}
+
+/* If the editor has no folder open: what is beside the file that defines the name. */
+static void find_files_on_disk(const tn_workspace *workspace, const tn_file_analysis *analysis, const tn_symbol *symbol,
+                               tn_rule_files *files)
+{
+    for (size_t i = 0; i < workspace->root_count; i++)
+        tn_rule_files_find(files, workspace->roots[i], TN_FOLDER_DEPTH_MAX);
+    char *path = workspace->root_count ? NULL : realpath(analysis_path(analysis, symbol->name_span.file), NULL);
+    char *slash = path ? strrchr(path, '/') : NULL;
+    if (slash) {
+        slash[slash == path] = '\0';
+        tn_rule_files_find(files, path, 0);
+    }
+    free(path);
+}
+
+static void find_files(const tn_workspace *workspace, const tn_file_analysis *analysis, const tn_symbol *symbol,
+                       tn_rule_files *files)
+{
+    if (workspace->served)
+        list_served(workspace->served, files);
+    else
+        find_files_on_disk(workspace, analysis, symbol, files);
+    if (files->count)
+        qsort(files->paths, files->count, sizeof *files->paths, compare_paths);
+}
+
+static tn_visited visit_closed(tn_workspace *workspace, tn_document *asked, const tn_symbol *symbol,
+                               visit_occurrence *visit, void *context)
+{
+    tn_rule_files files = {0};
+    find_files(workspace, asked->analysis, symbol, &files);
+    bool good = !files.failed;
+    for (size_t i = 0; good && i < files.count; i++)
+        if (i == 0 || strcmp(files.paths[i], files.paths[i - 1]) != 0)
+            good = visit_file(workspace, asked, symbol, files.paths[i], visit, context);
+    tn_visited visited = !good ? TN_VISITED_STOPPED : files.cut_off ? TN_VISITED_CUT_OFF : TN_VISITED_ALL;
+    tn_rule_files_clear(&files);
+    return visited;
+}
+
+/* Visits every occurrence of a symbol of the asked document's analysis once. */
+static tn_visited each_occurrence(tn_workspace *workspace, tn_document *asked, const tn_symbol *symbol,
+                                  visit_occurrence *visit, void *context)
+{
+    for (tn_document *document = workspace->documents; document; document = document->next)
+        if (!visit_document(workspace, asked, symbol, document, visit, context))
+            return TN_VISITED_STOPPED;
+    return visit_closed(workspace, asked, symbol, visit, context);
+}
+
+/* ---- definition, references, highlights and renaming */
 
 json_t *tn_lsp_definition(tn_document *document, tn_file_analysis *analysis, size_t offset)
 {
@@ -45,9 +224,9 @@ typedef struct collected {
 static bool collect(void *context, tn_document *document, tn_span span)
 {
     collected *c = context;
-    bool definition = span.begin == c->skip.begin && span.end == c->skip.end &&
-                      tn_same_file(tn_analysis_path(document->analysis, span.file),
-                                   tn_analysis_path(c->asked->analysis, c->skip.file));
+    bool definition =
+        span.begin == c->skip.begin && span.end == c->skip.end &&
+        same_file(analysis_path(document->analysis, span.file), analysis_path(c->asked->analysis, c->skip.file));
     if (!c->skips || !definition)
         json_array_append_new(c->list, tn_analysis_location(document, span));
     return true;
@@ -61,7 +240,7 @@ json_t *tn_lsp_references(tn_workspace *workspace, tn_document *document, tn_fil
     if (!found)
         return c.list;
     c.skip = found->symbol->name_span;
-    tn_each_occurrence(workspace, document, found->symbol, collect, &c);
+    each_occurrence(workspace, document, found->symbol, collect, &c);
     return c.list;
 }
 
@@ -91,7 +270,7 @@ json_t *tn_lsp_prepare_rename(tn_workspace *workspace, tn_document *document, tn
     (void)document;
     const tn_occurrence *found = tn_index_at(&analysis->index, 0, offset);
     if (!found || is_of_zone(found->symbol) ||
-        tn_workspace_is_stdlib(workspace, tn_analysis_path(analysis, found->symbol->name_span.file)))
+        tn_workspace_is_stdlib(workspace, analysis_path(analysis, found->symbol->name_span.file)))
         return json_null();
     return tn_analysis_range(analysis, found->span);
 }
@@ -185,7 +364,7 @@ json_t *tn_lsp_rename(tn_workspace *workspace, tn_document *document, tn_file_an
     *reason = NULL;
     if (!found)
         *reason = "there is no name here";
-    else if (tn_workspace_is_stdlib(workspace, tn_analysis_path(analysis, found->symbol->name_span.file)))
+    else if (tn_workspace_is_stdlib(workspace, analysis_path(analysis, found->symbol->name_span.file)))
         *reason = "the name is the standard library's";
     else if (is_of_zone(found->symbol))
         *reason = "a choice that a zone has keeps its name";
@@ -196,7 +375,7 @@ json_t *tn_lsp_rename(tn_workspace *workspace, tn_document *document, tn_file_an
     if (*reason)
         return NULL;
     renaming r = {json_object(), found->symbol, name, NULL};
-    tn_visited visited = tn_each_occurrence(workspace, document, found->symbol, add_edit, &r);
+    tn_visited visited = each_occurrence(workspace, document, found->symbol, add_edit, &r);
     if (visited == TN_VISITED_CUT_OFF)
         r.reason = "the open folders hold too many files to look for the name in all of them";
     *reason = r.reason;

@@ -24,4 +24,18 @@ void tn_review_cancel(tn_review *review);
  * diagnostics) and *facts, which may be NULL too; both are NULL if it was cancelled, has failed or has not run. */
 void tn_review_end(tn_review *review, tn_file_analysis **analysis, tn_facts **facts);
 
+/* ---- A thread of its own for what takes longer than a keystroke may (review.h) */
+
+typedef struct tn_background tn_background;
+
+/* Starts a thread that reviews, for so long at most. When it is done, or has given up, the thread calls `ended`. NULL
+ * if there can be no thread. */
+tn_background *tn_background_start(tn_review *review, double seconds, void (*ended)(void *context), void *context);
+
+/* Has it called `ended`? */
+bool tn_background_ended(tn_background *background);
+
+/* Waits for its end, and frees it; the review is the caller's again, and is returned. */
+tn_review *tn_background_join(tn_background *background);
+
 #endif

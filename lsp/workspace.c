@@ -1,13 +1,204 @@
 /* Keeps the texts that an editor has open. */
 #include "lsp/workspace.h"
 
+#include <dirent.h>
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
+#include "compiler/common/lexical.h"
+#include "compiler/compile.h"
+#include "driver/open/open.h"
 #include "lsp/facts.h"
 #include "runtime/base/array.h"
+
+/* ---- rule files in the folders that an editor has open */
+
+static void add(tn_rule_files *files, const char *path)
+{
+    if (!tn_array_reserve(&files->paths, &files->capacity, files->count, 1, sizeof *files->paths)) {
+        files->failed = true;
+        return;
+    }
+    char *real = realpath(path, NULL);
+    if (real)
+        files->paths[files->count++] = real;
+}
+
+static bool passed_over(const char *name)
+{
+    return name[0] == '.' || strcmp(name, "node_modules") == 0;
+}
+
+/* Not every file system says in its entries what they are. */
+static bool is_folder(const struct dirent *entry, const char *path)
+{
+    struct stat status;
+    if (entry->d_type != DT_UNKNOWN)
+        return entry->d_type == DT_DIR;
+    return lstat(path, &status) == 0 && S_ISDIR(status.st_mode);
+}
+
+static void look_at(tn_rule_files *files, const char *folder, const struct dirent *entry, unsigned depth)
+{
+    bool rules = tn_notation_of(entry->d_name, "", 0) == TN_NOTATION(plan);
+    bool maybe_folder = depth > 0 && (entry->d_type == DT_DIR || entry->d_type == DT_UNKNOWN);
+    char *path = NULL;
+    if (!rules && !maybe_folder)
+        return;
+    if (asprintf(&path, "%s/%s", folder, entry->d_name) < 0) {
+        files->failed = true;
+        return;
+    }
+    if (!is_folder(entry, path)) {
+        if (rules)
+            add(files, path);
+    } else if (depth > 0) {
+        tn_rule_files_find(files, path, depth - 1);
+    }
+    free(path);
+}
+
+void tn_rule_files_find(tn_rule_files *files, const char *folder, unsigned depth)
+{
+    DIR *directory = opendir(folder);
+    for (const struct dirent *entry; directory && !files->cut_off && (entry = readdir(directory));) {
+        files->cut_off = files->entries++ >= TN_FOLDER_ENTRIES_MAX;
+        if (!files->cut_off && !passed_over(entry->d_name))
+            look_at(files, folder, entry, depth);
+    }
+    if (directory)
+        closedir(directory);
+}
+
+void tn_rule_files_clear(tn_rule_files *files)
+{
+    for (size_t i = 0; i < files->count; i++)
+        free(files->paths[i]);
+    free(files->paths);
+    *files = (tn_rule_files){0};
+}
+
+static char *uri_path(const char *uri);
+
+/* ---- places of the protocol as JSON */
+
+json_t *tn_lines_position(const tn_lines *lines, size_t offset)
+{
+    size_t line, character;
+    tn_lines_place(lines, offset, &line, &character);
+    return json_pack("{s:I,s:I}", "line", (json_int_t)line, "character", (json_int_t)character);
+}
+
+json_t *tn_lines_range(const tn_lines *lines, size_t begin, size_t end)
+{
+    return json_pack("{s:o,s:o}", "start", tn_lines_position(lines, begin), "end", tn_lines_position(lines, end));
+}
+
+bool tn_lines_read(const tn_lines *lines, const json_t *position, size_t *offset)
+{
+    const json_t *line = json_object_get(position, "line"), *character = json_object_get(position, "character");
+    if (!json_is_integer(line) || !json_is_integer(character) || json_integer_value(line) < 0 ||
+        json_integer_value(character) < 0)
+        return false;
+    *offset = tn_lines_offset(lines, (size_t)json_integer_value(line), (size_t)json_integer_value(character));
+    return true;
+}
+
+/* ---- compiles a text and indexes it for the questions of an editor */
+
+void tn_analysis_free(tn_file_analysis *analysis)
+{
+    if (!analysis)
+        return;
+    for (size_t i = 0; analysis->lines && i < analysis->compilation.sources.count; i++)
+        tn_lines_clear(&analysis->lines[i]);
+    free(analysis->lines);
+    tn_compilation_clear(&analysis->compilation);
+    free(analysis);
+}
+
+/* The compilation has read the tokens and forgotten them. */
+static void read_tokens(tn_file_analysis *analysis)
+{
+    tn_compilation *c = &analysis->compilation;
+    tn_diagnostics scratch;
+    tn_reading reading;
+    tn_diagnostics_init(&scratch, &c->sources);
+    if (tn_text_check(&scratch, 0) && tn_read(c->arena, &scratch, c->notation, 0, &reading))
+        analysis->tokens = reading.tokens;
+    tn_diagnostics_clear(&scratch);
+}
+
+static tn_status compile_input(tn_file_analysis *analysis, const tn_input *input, const tn_compile_options *options)
+{
+    return tn_compile_text(tn_notation_or_first(input->name, input->text, input->size), input, options,
+                           &analysis->compilation);
+}
+
+static tn_status compile_served(tn_file_analysis *analysis, const tn_input *input, const tn_analysis_texts *texts)
+{
+    tn_served_files files;
+    tn_served_begin(&files, texts->served, texts->overlay, texts->context);
+    const tn_compile_options options = {
+        .resolver = tn_served_resolver(&files), .attachments = tn_served_attachments(&files), .partial = true};
+    tn_status status = compile_input(analysis, input, &options);
+    tn_served_clear(&files);
+    return status;
+}
+
+static tn_status compile_file(tn_file_analysis *analysis, const tn_input *input, const tn_analysis_texts *texts)
+{
+    tn_files files;
+    tn_files_begin(&files, texts->stdlib);
+    files.kept.overlay = texts->overlay;
+    files.kept.overlay_context = texts->context;
+    const tn_compile_options options = {
+        .resolver = tn_files_resolver(&files), .attachments = tn_file_attachments, .partial = true};
+    tn_status status = compile_input(analysis, input, &options);
+    tn_files_clear(&files);
+    return status;
+}
+
+tn_file_analysis *tn_analysis_new(const char *path, const char *text, size_t size, const tn_analysis_texts *texts)
+{
+    tn_file_analysis *analysis = calloc(1, sizeof *analysis);
+    if (!analysis)
+        return NULL;
+    const tn_input input = {.text = text, .size = size, .name = path};
+    tn_status status = texts->served ? compile_served(analysis, &input, texts) : compile_file(analysis, &input, texts);
+    analysis->lines = calloc(analysis->compilation.sources.count + 1, sizeof *analysis->lines);
+    if (analysis->compilation.sources.count > 0 && analysis->compilation.arena) {
+        read_tokens(analysis);
+        if (analysis->compilation.imports)
+            tn_index_build(&analysis->index, &analysis->compilation);
+    }
+    if (analysis->lines && status != TN_MEMORY)
+        return analysis;
+    tn_analysis_free(analysis);
+    return NULL;
+}
+
+const tn_lines *tn_analysis_lines(tn_file_analysis *analysis, uint32_t file)
+{
+    if (file >= analysis->compilation.sources.count)
+        return NULL;
+    tn_lines *lines = &analysis->lines[file];
+    const tn_source *source = &analysis->compilation.sources.files[file];
+    if (!lines->starts && !tn_lines_make(lines, source->text, source->size))
+        return NULL;
+    return lines;
+}
+
+json_t *tn_analysis_range(tn_file_analysis *analysis, tn_span span)
+{
+    const tn_lines *lines = tn_analysis_lines(analysis, span.file);
+    return lines ? tn_lines_range(lines, span.begin, span.end) : json_null();
+}
+
+/* ---- keeps the texts that an editor has open */
 
 /* What texts of the standard library are called if they are built in. */
 static const char recorded_folder[] = "<stdlib>/";
@@ -64,7 +255,7 @@ tn_document *tn_workspace_find(const tn_workspace *workspace, const char *uri)
 
 bool tn_workspace_add_root(tn_workspace *workspace, const char *uri)
 {
-    char *path = tn_uri_path(uri);
+    char *path = uri_path(uri);
     if (!path || !tn_array_resize(&workspace->roots, workspace->root_count + 1, sizeof *workspace->roots)) {
         free(path);
         return false;
@@ -115,7 +306,7 @@ static void text_changed(tn_workspace *workspace, const char *path)
 /* The file's real path, or what would be: ends so that it says the notation. */
 static char *path_of_uri(const tn_workspace *workspace, const char *uri, const char *language)
 {
-    char *path = tn_uri_path(uri), *longer = NULL;
+    char *path = uri_path(uri), *longer = NULL;
     char *real = path && !workspace->served ? realpath(path, NULL) : NULL;
     char *found = real ? real : path;
     if (real)
@@ -302,7 +493,9 @@ static int hex_digit(char c)
                                   : -1;
 }
 
-char *tn_uri_path(const char *uri)
+/* A path from a `file:` URI, and back; other URIs stay as they are, and a text of the built-in standard library is at
+ * `stdlib:/NAME`. The caller frees them. */
+static char *uri_path(const char *uri)
 {
     static const char scheme[] = "file://";
     if (strncmp(uri, scheme, sizeof scheme - 1) != 0)

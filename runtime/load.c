@@ -1,8 +1,7 @@
 /* Knows all engines, and has modules loaded and listed with them. */
 #include "runtime/load.h"
 
-#include "runtime/module/disasm.h"
-#include "runtime/module/load.h"
+#include "runtime/module/engine.h"
 
 #define ENGINE(NAME, FUZZ) extern const tn_engine tn_engine_##NAME;
 #include "runtime/engines.def"

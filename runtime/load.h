@@ -15,7 +15,7 @@ const struct tn_engines *tn_engines_all(void);
 tn_status tn_module_load(const void *bytes, size_t size, const tn_module_limits *limits, tn_module **module,
                          tn_error *error);
 
-/* Writes a listing to `out`; false where writing failed or memory ran out. Texts from the module are shortened and
+/* Writes a listing to `out`; false if writing failed or memory ran out. Texts from the module are shortened and
  * cleaned of what would upset a terminal. */
 bool tn_module_disassemble(const tn_module *module, FILE *out);
 

@@ -2,9 +2,9 @@
 """Holds the sources to their structure: structure.py CHECKOUT COMPILER [INCLUDE FLAGS...]
 
 The table of folders in docs/internals.md says which folder may include from which. This reads every #include and every tartan_folder() and
-fails on an arrow that the table does not list, on a circle of folders or of headers, on a folder with too many files, on a type defined
-in two places, on a source file that does not say what it is, on arrays that are grown by hand, and on headers that can't be included together. `--table` prints the rows
-that the includes ask for."""
+fails on an arrow that the table does not list (what the rows of a .def file name counts as an arrow, too), on a circle of folders, of
+headers or of files, on a folder with too many files, on a type defined in two places, on a source file that does not say what it is, on
+arrays that are grown by hand, and on headers that can't be included together. `--table` prints the rows that the includes ask for."""
 import collections, os, re, subprocess, sys, tempfile
 
 TOP = ("grammar", "compiler", "runtime", "driver", "ask", "api", "lsp", "studio", "cli", "mpi")
@@ -13,6 +13,8 @@ FILES_MAX = 40
 # What is still wrong. Each line goes when its reason does; an exception that is not needed any more fails too.
 ARROWS_UP = set()
 CIRCLES = set()
+CIRCLES_OF_FILES = {"compiler/plan/check", "runtime/house/count", "runtime/house/frontier", "runtime/module",
+                    "runtime/plan/library", "runtime/plan/match", "runtime/plan/measure"}
 
 problems = []
 
@@ -44,6 +46,53 @@ def includes(root, file):
             if os.path.exists(os.path.join(root, path)):
                 yield os.path.normpath(path)
                 break
+
+
+def definitions(root, files):
+    """name -> the file that defines it, of functions and objects that others may use."""
+    found = {}
+    for file in files:
+        if file.endswith((".c", ".cc")):
+            text = re.sub(r"^#.*(?:\\\n.*)*|^static\b", "", read(os.path.join(root, file)), flags=re.M)
+            for name in re.findall(r"^(?:[a-z][\w *]*[ *])(tn_\w+)\([^;{}]*\)\s*\{|^(?:[a-z][\w *]*[ *])(tn_\w+)(?:\[[^;={}]*\])* =", text, re.M):
+                found[name[0] or name[1]] = file
+    return found
+
+
+def rows(text):
+    """The rows of a .def file: (macro, its arguments)."""
+    for match in re.finditer(r"^(\w+)\(", re.sub(r"/\*.*?\*/", "", text, flags=re.S), re.M):
+        depth, arguments, at = 1, [""], match.end()
+        plain = match.string
+        while at < len(plain) and depth:
+            piece = re.compile(r'"(?:\\.|[^"\\])*"|.', re.S).match(plain, at).group()
+            at += len(piece)
+            depth += (piece == "(") - (piece == ")")
+            if piece == "," and depth == 1:
+                arguments.append("")
+            elif depth:
+                arguments[-1] += piece
+        yield match.group(1), [argument.strip() for argument in arguments]
+
+
+def taken(root, file, defined):
+    """The files that define what a file names by the rows of a .def file: tn_command_##NAME for each COMMAND(new)."""
+    text = read(os.path.join(root, file))
+    tables = [other for other in includes(root, file) if other.endswith(".def")]
+    macros = collections.defaultdict(list)
+    for name, parameters, body in re.findall(r"^\s*#\s*define (\w+)\(([^)]*)\)((?:.*\\\n)*.*)$", text, re.M) if tables else ():
+        parameters = [parameter.strip() for parameter in parameters.split(",")]
+        for before, parameter, behind in re.findall(r"\b(\w+)\s*##\s*(\w+)(?:\s*##\s*(\w+))?", body):
+            if parameter in parameters:
+                macros[name].append((before, parameters.index(parameter), behind))
+    for other in tables:
+        table_text = read(os.path.join(root, other))
+        same = dict(re.findall(r"^#define (\w+) (\w+)$", table_text, re.M))  # a row's macro that is another one unless it is defined
+        for macro, arguments in rows(table_text):
+            for before, index, behind in macros.get(macro) or macros.get(same.get(macro), ()):
+                name = before + arguments[index] + behind if index < len(arguments) else None
+                if name in defined and defined[name] != file:
+                    yield defined[name]
 
 
 def table(root):
@@ -118,13 +167,12 @@ def check_arrows(root, files):
             if used != folder and not used.startswith("include/"):
                 arrows[folder].add(used)
                 by.setdefault((folder, used), file)
-    for file in files:  # runtime/engines.def names what these define
-        if re.search(r"^const tn_engine tn_engine_", read(os.path.join(root, file)), re.M):
-            arrows["runtime"].add(home(file))
-            by.setdefault(("runtime", home(file)), "runtime/engines.def")
-        if re.search(r"^const tn_front tn_front_", read(os.path.join(root, file)), re.M):  # and compiler/notations.def these
-            arrows["compiler"].add(home(file))
-            by.setdefault(("compiler", home(file)), "compiler/notations.def")
+    defined = definitions(root, files)
+    for file in files:
+        for other in taken(root, file, defined) if file.endswith((".c", ".cc")) else ():
+            if home(other) != home(file):
+                arrows[home(file)].add(home(other))
+                by.setdefault((home(file), home(other)), file)
     allowed, made = table(root), targets(root)
     if "--table" in sys.argv:
         for folder in sorted(arrows):
@@ -156,6 +204,31 @@ def check_arrows(root, files):
         problems.append("this is no circle any more, take it out of CIRCLES: " + ", ".join(sorted(circle)))
     for circle in circles(graph):
         problems.append("a circle of headers: " + ", ".join(sorted(circle)))
+    check_modules(root, files, defined)
+
+
+def check_modules(root, files, defined):
+    """A header and the file of its name are one module. No circle of modules goes through headers that other folders include: what a
+    folder gives to others can be read from the bottom up. In cli/ there is none at all."""
+    graph, public = collections.defaultdict(set), set()
+    for file in files:
+        module = re.sub(r"\.(c|cc|h)$", "", file)
+        for other in [*includes(root, file), *(taken(root, file, defined) if file.endswith((".c", ".cc")) else ())]:
+            used = re.sub(r"\.(c|cc|h)$", "", other)
+            if used != module:
+                graph[module].add(used)
+            if home(other) != home(file):
+                public.add(used)
+    stand = set()
+    for circle in circles(graph):
+        outside = sorted(circle & public)
+        if len(outside) < 2 and not min(circle).startswith("cli/"):
+            continue
+        stand |= {os.path.dirname(module) for module in circle}
+        if not {os.path.dirname(module) for module in circle} <= CIRCLES_OF_FILES:
+            problems.append("a circle of files: " + ", ".join(sorted(circle)) + "; other folders include " + ", ".join(outside))
+    for folder in sorted(CIRCLES_OF_FILES - stand):
+        problems.append("%s/ has no circle of files any more: take it out of CIRCLES_OF_FILES" % folder)
 
 
 def check_sizes(files):

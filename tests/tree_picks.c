@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/genome/tree/pick.h"
+#include "runtime/genome/tree/gene_tree.h"
 
 int main(void)
 {

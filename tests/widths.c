@@ -12,7 +12,7 @@
 #include "runtime/base/random.h"
 #include "runtime/field/contour.h"
 #include "runtime/load.h"
-#include "runtime/numeric/numeric.h"
+#include "runtime/math/elementary.h"
 
 enum { NUMBERS = 100000 };
 

@@ -5,9 +5,9 @@
 
 #include "api/compiler/compile.h"
 #include "compiler/format.h"
-#include "driver/open/attached.h"
 #include "driver/open/files.h"
-#include "driver/open/stdlib_texts.h"
+#include "driver/open/open.h"
+#include "driver/open/stdlib.h"
 #include "runtime/base/file.h"
 
 _Static_assert((int)TARTAN_NOTE == (int)TN_NOTE && (int)TARTAN_ERROR == (int)TN_ERROR,

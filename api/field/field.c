@@ -5,7 +5,7 @@
 
 #include "api/geometry/mesh.h"
 #include "runtime/field/contour.h"
-#include "runtime/field/meshes.h"
+#include "runtime/field/field.h"
 
 enum { SAMPLES_LEAST = 2, SAMPLES_MOST = 8192 };
 

@@ -46,10 +46,6 @@ struct tartan_evolution {
 /* What the engine counts of a generation, under its public type. */
 tartan_generation tn_api_generation(const tn_generation_stats *stats);
 
-/* The caller's options as the engine's, checked; `evolution` has its grammar. */
-tartan_status tn_api_evolution_settings(const tn_module *module, const tartan_evolution_options *options,
-                                        tartan_evolution *evolution, tartan_error *error);
-
 /* An evolution without an engine's generation. */
 tartan_status tn_api_evolution_make(const tartan_module *module, const tartan_evolution_options *options,
                                     tartan_evolution **evolution, tartan_error *error);

@@ -3,7 +3,7 @@
 #define TARTAN_API_GEOMETRY_MESH_H
 
 #include "api/base/api.h"
-#include "runtime/geometry/boundary_file.h"
+#include "runtime/geometry/boundary_mesh.h"
 #include "runtime/geometry/write.h"
 
 struct tartan_mesh {

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/house/variant/change.h"
+#include "runtime/house/rule/change.h"
 
 tartan_houses *tn_api_houses_new(tartan_house_library *library)
 {

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "api/base/api.h"
-#include "runtime/place/conditions.h"
+#include "runtime/place/measure.h"
 #include "runtime/place/search/search.h"
 #include "runtime/place/write.h"
 

@@ -1,18 +1,32 @@
-/* The C interface to measures: names, units, distributions. */
+/* The C interface to measures: names, units, distributions, the best plans, fronts, open plans. */
 #include <stdlib.h>
 #include <string.h>
 
-#include "api/plan/measure_data.h"
+#include "api/plan/plan.h"
+#include "runtime/plan/measure/amount.h"
+#include "runtime/plan/measure/best.h"
+#include "runtime/plan/measure/complete.h"
 #include "runtime/plan/measure/distribution.h"
 #include "runtime/plan/measure/named.h"
+#include "runtime/plan/measure/pareto.h"
+#include "runtime/plan/measure/weighed.h"
+
+/* Wishes made ready: the library weighed by their measures. */
+typedef struct api_wishes {
+    tn_weighed *weighed;
+    uint32_t count;
+    bool most[TN_WEIGHED_MAX];
+    tn_amount_unit unit[TN_WEIGHED_MAX];
+} api_wishes;
 
 struct tartan_distribution {
     tn_distribution d;
     tn_amount_unit unit;
 };
 
-tartan_status tn_api_measure_find(const tartan_library *library, const char *name, uint32_t *measure,
-                                  tartan_error *error)
+/* The MEASURE record named so, of the library's trays. */
+static tartan_status api_measure_find(const tartan_library *library, const char *name, uint32_t *measure,
+                                      tartan_error *error)
 {
     if (!library || !name)
         return tn_api_missing(error, library ? "measure" : "library");
@@ -30,7 +44,7 @@ tartan_status tn_api_measure_find(const tartan_library *library, const char *nam
     return tn_api_unknown(error, "measure", name, names, count);
 }
 
-tn_amount_unit tn_api_measure_unit(const tartan_library *library, uint32_t measure)
+static tn_amount_unit api_measure_unit(const tartan_library *library, uint32_t measure)
 {
     return tn_amount_unit_of(library->schema, tn_named_measure_power(library->schema->module, measure));
 }
@@ -38,12 +52,12 @@ tn_amount_unit tn_api_measure_unit(const tartan_library *library, uint32_t measu
 const char *tartan_measure_unit(const tartan_library *library, const char *measure)
 {
     uint32_t index;
-    if (tn_api_measure_find(library, measure, &index, NULL) != TARTAN_OK)
+    if (api_measure_find(library, measure, &index, NULL) != TARTAN_OK)
         return NULL;
-    return tn_amount_unit_name(tn_api_measure_unit(library, index));
+    return tn_amount_unit_name(api_measure_unit(library, index));
 }
 
-tartan_status tn_api_amount(tn_amount_unit unit, const mpq_t value, char **text, tartan_error *error)
+static tartan_status api_amount(tn_amount_unit unit, const mpq_t value, char **text, tartan_error *error)
 {
     tn_buffer written = {0};
     if (!tn_amount_write_exact(unit, value, &written)) {
@@ -56,44 +70,46 @@ tartan_status tn_api_amount(tn_amount_unit unit, const mpq_t value, char **text,
 
 /* ---- wishes */
 
-tartan_status tn_api_wishes_take(const tartan_library *library, const tartan_wish *given, size_t count, size_t least,
-                                 tn_api_wishes *wishes, tartan_error *error)
+/* `least` wishes are needed. Clear in any case. */
+static tartan_status api_wishes_take(const tartan_library *library, const tartan_wish *given, size_t count,
+                                     size_t least, api_wishes *wishes, tartan_error *error)
 {
     uint32_t measures[TN_WEIGHED_MAX];
     tn_error found;
-    *wishes = (tn_api_wishes){0};
+    *wishes = (api_wishes){0};
     if (!library || !given)
         return tn_api_missing(error, library ? "array of wishes" : "library");
     if (count < least || count > TN_WEIGHED_MAX)
         return tn_api_refuse(error, TARTAN_INVALID, "there are %zu wishes; %zu to %d are possible", count, least,
                              TN_WEIGHED_MAX);
     for (size_t i = 0; i < count; i++) {
-        tartan_status status = tn_api_measure_find(library, given[i].measure, &measures[i], error);
+        tartan_status status = api_measure_find(library, given[i].measure, &measures[i], error);
         if (status != TARTAN_OK)
             return status;
         wishes->most[i] = given[i].most;
-        wishes->unit[i] = tn_api_measure_unit(library, measures[i]);
+        wishes->unit[i] = api_measure_unit(library, measures[i]);
     }
     wishes->count = (uint32_t)count;
     tn_status status = tn_weighed_new(library->library, measures, wishes->count, &wishes->weighed, &found);
     return status == TN_OK ? TARTAN_OK : tn_api_fail(&found, error);
 }
 
-void tn_api_wishes_clear(tn_api_wishes *wishes)
+static void api_wishes_clear(api_wishes *wishes)
 {
     tn_weighed_free(wishes->weighed);
-    *wishes = (tn_api_wishes){0};
+    *wishes = (api_wishes){0};
 }
 
-tartan_status tn_api_wish_value(const tn_api_wishes *wishes, size_t wish, const int64_t *values, char **value,
-                                tartan_error *error)
+/* A value in steps as a new text; one in nanometres. */
+static tartan_status api_wish_value(const api_wishes *wishes, size_t wish, const int64_t *values, char **value,
+                                    tartan_error *error)
 {
     if (wish >= wishes->count)
         return tn_api_refuse(error, TARTAN_INVALID, "there is no wish %zu", wish);
     mpq_t number;
     mpq_init(number);
     tn_weighed_value(wishes->weighed, (uint32_t)wish, values, number);
-    tartan_status status = tn_api_amount(wishes->unit[wish], number, value, error);
+    tartan_status status = api_amount(wishes->unit[wish], number, value, error);
     mpq_clear(number);
     return status;
 }
@@ -106,13 +122,13 @@ tartan_status tartan_distribution_new(const tartan_library *library, const char 
     uint32_t index;
     tn_weighed *weighed = NULL;
     tn_error found;
-    tartan_status status = tn_api_measure_find(library, measure, &index, error);
+    tartan_status status = api_measure_find(library, measure, &index, error);
     if (status != TARTAN_OK)
         return status;
     tartan_distribution *made = calloc(1, sizeof *made);
     if (!made)
         return tn_api_memory(error);
-    made->unit = tn_api_measure_unit(library, index);
+    made->unit = api_measure_unit(library, index);
     tn_distribution_init(&made->d);
     tn_status worked = tn_weighed_new(library->library, &index, 1, &weighed, &found);
     if (worked == TN_OK)
@@ -150,7 +166,7 @@ tartan_status tartan_distribution_value(const tartan_distribution *distribution,
     mpq_t number;
     mpq_init(number);
     tn_distribution_value(&distribution->d, i, number);
-    tartan_status status = tn_api_amount(distribution->unit, number, &text, error);
+    tartan_status status = api_amount(distribution->unit, number, &text, error);
     mpq_clear(number);
     if (status == TARTAN_OK)
         status = tn_api_decimal(distribution->d.plans[i], plans, error);
@@ -186,7 +202,256 @@ tartan_status tartan_distribution_statistic(const tartan_distribution *distribut
     else
         tn_distribution_value(d, tn_distribution_quartile(d, (unsigned)(statistic - TARTAN_LEAST)), number);
     unit.power *= statistic == TARTAN_VARIANCE ? 2 : 1;
-    tartan_status status = tn_api_amount(unit, statistic == TARTAN_VARIANCE ? variance : number, value, error);
+    tartan_status status = api_amount(unit, statistic == TARTAN_VARIANCE ? variance : number, value, error);
     mpq_clears(number, variance, NULL);
     return status;
+}
+
+/* ---- the best plans of a library, and to fronts */
+
+struct tartan_best {
+    api_wishes wishes;
+    tn_best *best;
+    tn_tray *trays;
+    int64_t values[TN_WEIGHED_MAX];
+    bool stepped; /* on a plan */
+};
+
+struct tartan_front {
+    api_wishes wishes;
+    tn_pareto_front front;
+};
+
+/* ---- best plans */
+
+tartan_status tartan_best_new(const tartan_library *library, const tartan_wish *wishes, size_t count,
+                              tartan_best **best, tartan_error *error)
+{
+    tn_error found;
+    tartan_best *made = calloc(1, sizeof *made);
+    if (!made)
+        return tn_api_memory(error);
+    tartan_status status = api_wishes_take(library, wishes, count, 1, &made->wishes, error);
+    if (status == TARTAN_OK) {
+        made->trays = calloc((size_t)tn_library_max(library->library) + 1, sizeof *made->trays);
+        status = made->trays ? TARTAN_OK : tn_api_memory(error);
+    }
+    if (status == TARTAN_OK && tn_best_new(made->wishes.weighed, made->wishes.most, &made->best, &found) != TN_OK)
+        status = tn_api_fail(&found, error);
+    if (status == TARTAN_OK)
+        *best = made;
+    else
+        tartan_best_free(made);
+    return status;
+}
+
+void tartan_best_free(tartan_best *best)
+{
+    if (!best)
+        return;
+    tn_best_free(best->best);
+    api_wishes_clear(&best->wishes);
+    free(best->trays);
+    free(best);
+}
+
+tartan_status tartan_best_next(tartan_best *best, const uint32_t **trays, size_t *length, bool *found,
+                               tartan_error *error)
+{
+    tn_error failed;
+    uint32_t count = 0;
+    bool more = false;
+    if (!best)
+        return tn_api_missing(error, "object of best plans");
+    tn_status status = tn_best_next(best->best, best->trays, &count, best->values, &more, &failed);
+    best->stepped = status == TN_OK && more;
+    if (status != TN_OK)
+        return tn_api_fail(&failed, error);
+    *found = more;
+    if (more) {
+        *trays = best->trays;
+        *length = count;
+    }
+    return TARTAN_OK;
+}
+
+tartan_status tartan_best_value(const tartan_best *best, size_t wish, char **value, tartan_error *error)
+{
+    if (!best)
+        return tn_api_missing(error, "object of best plans");
+    if (!best->stepped)
+        return tn_api_refuse(error, TARTAN_INVALID, "there is no plan at hand");
+    return api_wish_value(&best->wishes, wish, best->values, value, error);
+}
+
+/* ---- fronts */
+
+tartan_status tartan_front_new(const tartan_library *library, const tartan_wish *wishes, size_t count,
+                               tartan_front **front, tartan_error *error)
+{
+    tn_error found;
+    tartan_front *made = calloc(1, sizeof *made);
+    if (!made)
+        return tn_api_memory(error);
+    tartan_status status = api_wishes_take(library, wishes, count, 2, &made->wishes, error);
+    if (status == TARTAN_OK && tn_pareto_make(&made->front, made->wishes.weighed, made->wishes.most, &found) != TN_OK)
+        status = tn_api_fail(&found, error);
+    if (status == TARTAN_OK)
+        *front = made;
+    else
+        tartan_front_free(made);
+    return status;
+}
+
+void tartan_front_free(tartan_front *front)
+{
+    if (!front)
+        return;
+    tn_pareto_clear(&front->front);
+    api_wishes_clear(&front->wishes);
+    free(front);
+}
+
+size_t tartan_front_count(const tartan_front *front)
+{
+    return front->front.count;
+}
+
+static tartan_status check_point(const tartan_front *front, size_t point, tartan_error *error)
+{
+    if (!front)
+        return tn_api_missing(error, "front");
+    if (point >= front->front.count)
+        return tn_api_refuse(error, TARTAN_INVALID, "the front has no point %zu", point);
+    return TARTAN_OK;
+}
+
+tartan_status tartan_front_value(const tartan_front *front, size_t point, size_t wish, char **value,
+                                 tartan_error *error)
+{
+    tartan_status status = check_point(front, point, error);
+    if (status != TARTAN_OK)
+        return status;
+    return api_wish_value(&front->wishes, wish, front->front.points[point].values, value, error);
+}
+
+tartan_status tartan_front_plans(const tartan_front *front, size_t point, char **plans, const uint32_t **trays,
+                                 size_t *length, tartan_error *error)
+{
+    tartan_status status = check_point(front, point, error);
+    if (status == TARTAN_OK)
+        status = tn_api_decimal(front->front.points[point].plans, plans, error);
+    if (status != TARTAN_OK)
+        return status;
+    *trays = front->front.points[point].trays;
+    *length = front->front.points[point].length;
+    return TARTAN_OK;
+}
+
+/* ---- open plans */
+
+struct tartan_completions {
+    const tn_schema *schema;
+    tn_completions found;
+    char *plans;
+    char **counts, **bests; /* [trays][values]; bests NULL without a wish */
+};
+
+void tartan_completions_free(tartan_completions *completions)
+{
+    if (!completions)
+        return;
+    size_t count = (size_t)completions->found.trays * completions->found.values;
+    for (size_t i = 0; i < count; i++) {
+        free(completions->counts ? completions->counts[i] : NULL);
+        free(completions->bests ? completions->bests[i] : NULL);
+    }
+    free(completions->counts);
+    free(completions->bests);
+    free(completions->plans);
+    tn_completions_clear(&completions->found);
+    free(completions);
+}
+
+static tartan_status write_texts(tartan_completions *made, const api_wishes *wishes, tartan_error *error)
+{
+    size_t count = (size_t)made->found.trays * made->found.values;
+    made->counts = calloc(count + 1, sizeof *made->counts);
+    made->bests = wishes->weighed ? calloc(count + 1, sizeof *made->bests) : NULL;
+    if (!made->counts || (wishes->weighed && !made->bests))
+        return tn_api_memory(error);
+    tartan_status status = tn_api_decimal(made->found.plans, &made->plans, error);
+    for (size_t i = 0; status == TARTAN_OK && i < count; i++) {
+        status = tn_api_decimal(made->found.counts[i], &made->counts[i], error);
+        if (status == TARTAN_OK && made->bests && made->found.best[i] != TN_NO_BEST)
+            status = api_wish_value(wishes, 0, &made->found.best[i], &made->bests[i], error);
+    }
+    return status;
+}
+
+static tartan_status find(const tartan_library *library, const tartan_open_tray *places, size_t count,
+                          const api_wishes *wishes, tartan_completions *made, tartan_error *error)
+{
+    tn_open_tray *open = calloc(count + 1, sizeof *open);
+    tn_error found;
+    if (!open)
+        return tn_api_memory(error);
+    for (size_t i = 0; i < count; i++)
+        open[i] = (tn_open_tray){places[i].fits, places[i].gap};
+    const tn_open_plan plan = {.trays = open, .count = count, .weighed = wishes->weighed, .most = wishes->most[0]};
+    tn_status status = tn_complete(&made->found, library->library, &plan, &found);
+    free(open);
+    return status == TN_OK ? write_texts(made, wishes, error) : tn_api_fail(&found, error);
+}
+
+tartan_status tartan_completions_new(const tartan_library *library, const tartan_open_tray *places, size_t count,
+                                     const tartan_wish *wish, tartan_completions **completions, tartan_error *error)
+{
+    api_wishes wishes = {0};
+    if (!library || (count && !places))
+        return tn_api_missing(error, library ? "array of places" : "library");
+    tartan_status status = wish ? api_wishes_take(library, wish, 1, 1, &wishes, error) : TARTAN_OK;
+    tartan_completions *made = NULL;
+    if (status == TARTAN_OK) {
+        made = calloc(1, sizeof *made);
+        status = made ? TARTAN_OK : tn_api_memory(error);
+    }
+    if (status == TARTAN_OK) {
+        made->schema = library->schema;
+        status = find(library, places, count, &wishes, made, error);
+    }
+    api_wishes_clear(&wishes);
+    if (status == TARTAN_OK)
+        *completions = made;
+    else
+        tartan_completions_free(made);
+    return status;
+}
+
+const char *tartan_completions_plans(const tartan_completions *completions)
+{
+    return completions->plans;
+}
+
+size_t tartan_completions_count(const tartan_completions *completions, size_t place)
+{
+    return place < completions->found.trays ? completions->found.values : 0;
+}
+
+tartan_status tartan_completions_choice(const tartan_completions *completions, size_t place, size_t i,
+                                        tartan_choice *choice, tartan_error *error)
+{
+    if (!completions || !choice)
+        return tn_api_missing(error, completions ? "choice to fill" : "object of completions");
+    if (i >= tartan_completions_count(completions, place))
+        return tn_api_refuse(error, TARTAN_INVALID, "there is no choice %zu at place %zu", i, place);
+    const tn_schema *schema = completions->schema;
+    size_t at = place * completions->found.values + i;
+    uint32_t field = 0;
+    while (schema->value_start[field + 1] <= i)
+        field++;
+    *choice = (tartan_choice){tn_text(schema->module, schema->fields[field].name),
+                              tn_text(schema->module, schema->values[i].spelling), completions->counts[at],
+                              completions->bests ? completions->bests[at] : NULL};
+    return TARTAN_OK;
 }

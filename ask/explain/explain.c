@@ -10,6 +10,7 @@
 #include "ask/plan/match.h"
 #include "ask/session/made.h"
 #include "ask/session/questions.h"
+#include "ask/session/spelled.h"
 
 /* What plans are explained with, kept from one to the next. */
 typedef struct tn_plan_explainer {

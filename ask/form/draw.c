@@ -5,7 +5,7 @@
 #include "ask/form/form.h"
 #include "driver/field/field.h"
 #include "driver/solid/solid.h"
-#include "runtime/field/normals.h"
+#include "runtime/field/field.h"
 #include "runtime/scene/draw_mesh.h"
 
 tn_file_format tn_draw_format(const tn_draw_request *request)

@@ -14,9 +14,6 @@ extern const tn_file_format tn_mesh_formats[TN_MESH_FORMAT_COUNT];
 /* Does the request make sense for its format? Otherwise TN_INVALID, which is said. No file needs to be open. */
 tn_status tn_mesh_request_fits(tn_session *session, const tn_mesh_request *request);
 
-/* And for the file that is open? */
-tn_status tn_mesh_request_check(tn_session *session, const tn_mesh_request *request);
-
 /* A mesh on its way. */
 typedef struct tn_meshing {
     tn_session *session;
@@ -26,14 +23,6 @@ typedef struct tn_meshing {
     tn_reply *answer;
 } tn_meshing;
 
-/* What is done to the mesh when it is finished. */
-tn_mesh_changes tn_rework_asked(const tn_mesh_rework *asked);
-
-/* Begins the answer: its measures if they are asked for, and what they say of any mesh. *measured is NULL if they are
- * not asked for. */
-tn_status tn_meshing_answer(const tn_meshing *m, const tn_mesh *mesh, const tn_mesh_measures *measures, bool closed,
-                            tn_measured_mesh **measured, tn_error *error);
-
 /* What a mesh's file says beside the mesh. */
 typedef struct tn_meshed_form {
     uint32_t name; /* in the module */
@@ -41,12 +30,6 @@ typedef struct tn_meshed_form {
     const tn_field *field; /* whose gradient gives the normals, or NULL */
     double spacing;        /* of its grid */
 } tn_meshed_form;
-
-/* Tells what was measured, then makes the file if one is asked for. */
-tn_status tn_meshing_finish(const tn_meshing *m, tn_mesh *mesh, const tn_meshed_form *form, tn_error *error);
-
-/* Meshes a design of boxes; what is wrong is said. */
-tn_status tn_mesh_solid(const tn_meshing *m);
 
 /* A surface that is evaluated at one place after another. Close it in any case. */
 typedef struct tn_probe {
@@ -60,8 +43,5 @@ void tn_probe_close(tn_probe *probe);
 
 /* The value at a place and its gradient; neither need be finite. Below 0 is inside. */
 double tn_probe_at(const tn_probe *probe, const double place[3], double gradient[3]);
-
-/* The answer for mesh_request.points. */
-tn_status tn_mesh_points(tn_session *session, const tn_mesh_request *request, tn_reply *answer);
 
 #endif

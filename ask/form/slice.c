@@ -10,7 +10,7 @@
 #include "driver/solid/solid.h"
 #include "runtime/field/slices.h"
 #include "runtime/geometry/union/union.h"
-#include "runtime/slices/write.h"
+#include "runtime/slices/slices.h"
 
 typedef struct slicing {
     tn_session *session;

@@ -5,11 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ask/genome/evolving.h"
+#include "ask/genome/evolve.h"
 #include "ask/session/questions.h"
-#include "driver/hand/choice.h"
+#include "driver/hand/hand.h"
 #include "driver/sheet/sheet_page.h"
-#include "driver/sheet/sheet_picture.h"
 
 /* In the order of the words of the request. */
 typedef enum action_kind { DOES_BREED, DOES_SET, DOES_INSERT, DOES_EDIT, DOES_OUT } action_kind;

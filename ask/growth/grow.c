@@ -1,11 +1,342 @@
 /* grow: a surface that grows from a rewrite system, step by step. */
 #include "ask/growth/grow.h"
 
+#include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "runtime/base/array.h"
 #include "runtime/growth/faults.h"
+#include "runtime/growth/soundness.h"
+
+/* ---- which requests make sense */
+
+const tn_file_format tn_grow_formats[TN_GROW_FORMAT_COUNT] = {TN_FILE_OTHER, TN_FILE_OBJ, TN_FILE_PLY, TN_FILE_STL,
+                                                              TN_FILE_OFF,   TN_FILE_OM,  TN_FILE_GLB, TN_FILE_DXF,
+                                                              TN_FILE_SVG,   TN_FILE_PNG, TN_FILE_PDF};
+
+enum { MESH = 1, SURFACE = 2, LINES = 4, NORMALS = 8, GROUPS = 16, AXIS = 32, PICTURE = 64 };
+
+static const unsigned format_can[TN_FILE_FORMATS + 1] = {
+    [TN_FILE_OBJ] = MESH | SURFACE | LINES | NORMALS | GROUPS | AXIS,
+    [TN_FILE_PLY] = MESH | SURFACE | LINES | NORMALS | GROUPS | AXIS,
+    [TN_FILE_STL] = MESH | SURFACE | AXIS,
+    [TN_FILE_OFF] = MESH | SURFACE | AXIS,
+    [TN_FILE_OM] = MESH | SURFACE | AXIS,
+    [TN_FILE_GLB] = MESH | SURFACE | NORMALS | GROUPS,
+    [TN_FILE_DXF] = MESH | LINES | GROUPS | AXIS,
+    [TN_FILE_SVG] = PICTURE,
+    [TN_FILE_PNG] = PICTURE,
+    [TN_FILE_PDF] = PICTURE,
+};
+
+/* Used with another format they would do nothing. */
+static tn_status check_uses(tn_session *session, const tn_grow_request *r)
+{
+    static const char surface[] = "write a surface: .obj, .ply, .stl, .off, .om or .glb",
+                      picture[] = "write a picture: .svg, .png or .pdf";
+    const tn_grow_picture *p = &r->picture;
+    const struct {
+        bool given;
+        unsigned needs;
+        const char *name, *help;
+    } uses[] = {
+        {r->rework.has_subdivide, SURFACE, "subdivide", surface},
+        {r->rework.has_decimate, SURFACE, "decimate", surface},
+        {r->rework.has_smooth, MESH, "smooth", "write a mesh: .obj, .ply, .stl, .off, .om, .glb or .dxf"},
+        {r->triangulate, SURFACE, "triangulate", surface},
+        {r->lines, LINES, "lines", "only .obj, .ply and .dxf hold lines"},
+        {r->normals, NORMALS, "normals", "only .obj, .ply and .glb hold normals of vertices"},
+        {r->groups, GROUPS, "groups", "only .obj, .ply, .glb and .dxf hold groups"},
+        {r->up != 0, AXIS, "up", "a .glb has y up always; a picture is turned with --azimuth and --elevation"},
+        {p->has_azimuth, PICTURE, "azimuth", picture},
+        {p->has_elevation, PICTURE, "elevation", picture},
+        {p->has_width, PICTURE, "width", picture},
+        {p->has_columns, PICTURE, "columns", "write a --sheet: .svg, .png or .pdf"},
+        {p->has_dpi, PICTURE, "dpi", "write a picture: .png"},
+        {p->surroundings != 0, PICTURE, "surroundings", picture},
+        {r->has_turn, PICTURE, "turn", "name a folder, as -o turn, or one moving picture, as -o turn.png"},
+        {p->title != NULL, PICTURE, "title", picture},
+        {r->sheet, PICTURE, "sheet", picture},
+        {r->overlay.count > 0, PICTURE, "overlay", picture},
+        {r->each_step, PICTURE | MESH, "each-step", "name one with -o"},
+    };
+    for (size_t i = 0; i < sizeof uses / sizeof *uses; i++) {
+        if (!uses[i].given || (format_can[tn_grow_formats[r->format]] & uses[i].needs))
+            continue;
+        return r->format
+                   ? tn_session_refuse(session, uses[i].help, "--%s does nothing for this kind of file", uses[i].name)
+                   : tn_session_refuse(session, "name one with -o", "--%s does nothing without a file", uses[i].name);
+    }
+    return TN_OK;
+}
+
+static tn_status check_turn(tn_session *session, const tn_grow_request *r, const char *output)
+{
+    if (!r->has_turn && r->moving)
+        return tn_session_refuse(session, "say of how many pictures: `turn`", "what moves is a turn");
+    if (!r->has_turn)
+        return TN_OK;
+    if (tn_grow_formats[r->format] != TN_FILE_PNG)
+        return tn_session_refuse(session, "name a folder, as -o turn, or one moving picture, as -o turn.png",
+                                 "--turn writes PNG pictures, and %s is none",
+                                 output ? output : tn_file_format_word(tn_grow_formats[r->format]));
+    if (r->sheet || r->overlay.count > 0 || r->each_step)
+        return tn_session_refuse(session, NULL,
+                                 "--turn shows the last step: leave --sheet, --overlay and --each-step out");
+    return TN_OK;
+}
+
+static tn_status check_overlay(tn_session *session, const tn_grow_request *r)
+{
+    bool fits = r->overlay.count <= TN_OVERLAY_MAX;
+    for (size_t i = 0; fits && i < r->overlay.count; i++)
+        fits = r->overlay.items[i] <= TN_STEPS_MAX;
+    if (!fits)
+        return tn_session_refuse(session, "for example --overlay 1,3,5", "--overlay takes up to %d steps",
+                                 TN_OVERLAY_MAX);
+    if (r->overlay.count > 0 && (r->sheet || r->each_step))
+        return tn_session_refuse(session, NULL, "--overlay draws one picture: leave --sheet and --each-step out");
+    return TN_OK;
+}
+
+tn_status tn_grow_request_fits(tn_session *session, const tn_grow_request *r, const char *output)
+{
+    tn_status status = check_uses(session, r);
+    if (status == TN_OK && (r->rework.has_subdivide || r->rework.has_decimate) && (r->lines || r->groups))
+        status = tn_session_refuse(session, "leave one or the other out",
+                                   "--subdivide and --decimate make new faces, which have no edges of the rules: "
+                                   "--lines and --groups have nothing to show");
+    if (status == TN_OK)
+        status = check_turn(session, r, output);
+    if (status == TN_OK)
+        status = check_overlay(session, r);
+    if (status == TN_OK && r->sheet && r->each_step)
+        status = tn_session_refuse(session, NULL, "a --sheet has every step already: leave --each-step out");
+    return status;
+}
+
+/* ---- steps as rows of an answer */
+
+static tn_status add_count(tn_list *to, uint64_t value, tn_error *error, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+static tn_status add_count(tn_list *to, uint64_t value, tn_error *error, const char *format, ...)
+{
+    tn_named_count *added = tn_message_add(&tn_message_named_count, to, error);
+    if (!added)
+        return TN_MEMORY;
+    va_list args;
+    va_start(args, format);
+    added->value = value;
+    if (vasprintf(&added->name, format, args) < 0)
+        added->name = NULL;
+    va_end(args);
+    return added->name ? TN_OK : tn_fail_memory(error);
+}
+
+static tn_status add_real(tn_list *to, const char *name, double value, tn_error *error)
+{
+    tn_named_real *added = tn_message_add(&tn_message_named_real, to, error);
+    if (!added)
+        return TN_MEMORY;
+    *added = (tn_named_real){name, value};
+    return TN_OK;
+}
+
+static tn_status set_edges(const tn_growth_system *system, const tn_stats *stats, tn_grown_step *to, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; i < system->label_count && status == TN_OK; i++)
+        if (stats->labels[i])
+            status = add_count((tn_list *)&to->labels, stats->labels[i], error, "Edge%u",
+                               (unsigned)system->labels[i].number);
+    for (size_t i = 0; i < stats->age_count && status == TN_OK; i++)
+        status = add_count((tn_list *)&to->ages, stats->ages[i].count, error, "Edge%u_%d",
+                           (unsigned)system->labels[stats->ages[i].label].number, (int)stats->ages[i].age);
+    for (size_t i = 0; i < stats->side_count && status == TN_OK; i++)
+        status =
+            add_count((tn_list *)&to->face_sides, stats->sides[i].count, error, "%u", (unsigned)stats->sides[i].sides);
+    return status;
+}
+
+static tn_status set_fitness(const tn_fitness_goal *goal, const tn_fitness *fitness, tn_grown_step *to, tn_error *error)
+{
+    tn_list *list = (tn_list *)&to->fitness;
+    tn_status status = TN_OK;
+    for (int t = 0; t < TN_FITNESS_TERM_COUNT && status == TN_OK; t++)
+        status = add_real(list, tn_fitness_term_name((tn_measured)t), tn_fitness_value(fitness, (tn_measured)t), error);
+    for (uint32_t i = 0; i < goal->named_count && status == TN_OK; i++)
+        status = add_real(list, goal->named[i].name, tn_named_value(&goal->named[i], fitness), error);
+    to->has_lacking = goal->required_count > 0;
+    to->lacking = to->has_lacking ? tn_fitness_lacking(fitness, goal) : 0;
+    return status;
+}
+
+static tn_status set_measures(const tn_fitness *fitness, tn_grown_step *to, tn_error *error)
+{
+    tn_status status = TN_OK;
+    to->has_measures = true;
+    for (int i = TN_MEASURED_WIDTH; i < TN_MEASURED_COUNT && status == TN_OK; i++) {
+        double value = fitness->further[i - TN_MEASURED_WIDTH];
+        if (isfinite(value)) /* no distance without a target */
+            status = add_real((tn_list *)&to->measures, tn_names_MEASURED[i], value, error);
+    }
+    return status;
+}
+
+static tn_status add_row(tn_growing *g, const tn_stats *stats, bool all, tn_error *error)
+{
+    tn_grown_step *row = TN_ADD(grown_step, g->grown->stats.steps, error);
+    if (!row)
+        return TN_MEMORY;
+    row->step = stats->step;
+    row->V = stats->vertices;
+    row->E = stats->edges;
+    row->F
+    = stats->faces;
+    tn_status status = set_edges(g->shown->system, stats, row, error);
+    if (status == TN_OK)
+        status = set_fitness(&g->shown->study.goal, &stats->fitness, row, error);
+    return status == TN_OK && all ? set_measures(&stats->fitness, row, error) : status;
+}
+
+/* Measures the step that the growth is at, and adds it to the answer. */
+static tn_status grown_measure(tn_growing *g, tn_error *error)
+{
+    tn_grown_shown *shown = g->shown;
+    bool all = g->request->measures == 0;
+    if (!tn_array_reserve_from(&shown->stats, &shown->room, 16, shown->count, 1, sizeof *shown->stats))
+        return tn_fail_memory(error);
+    tn_stats *stats = &shown->stats[shown->count++];
+    tn_status status = tn_stats_measure(g->growth, stats, error);
+    if (status == TN_OK)
+        status = tn_soundness_measure(g->growth, &shown->study.measuring, all ? UINT64_MAX : shown->study.goal.asked,
+                                      &stats->fitness, error);
+    return status == TN_OK ? add_row(g, stats, all, error) : status;
+}
+
+/* ---- why branches did not join */
+
+/* Adds why its branches did not join. */
+static tn_status grown_explain(tn_growing *g, tn_error *error)
+{
+    static const char *const reasons[TN_JOIN_FAILURE_COUNT] = {
+        "leave along the path or straight out of the surface",
+        "point out of the surface",
+        "find no branch of their label in their region",
+        "find none that points against them within BranchAngle",
+        "find none in front of them",
+        "find none near enough",
+        "find one only at a vertex that an edge leads to already",
+        "find only ones that joined others, or that a join cut off",
+    };
+    const tn_growth_counts counts = tn_growth_last_counts(g->growth);
+    tn_grown_joins *row = TN_ADD(grown_joins, g->grown->joins, error);
+    if (!row)
+        return TN_MEMORY;
+    row->step = tn_growth_steps(g->growth);
+    row->replaced = counts.rewrites;
+    row->joined = counts.joins;
+    row->kept = counts.refused;
+    for (int i = 0; i < TN_JOIN_FAILURE_COUNT; i++) {
+        if (counts.failures[i] == 0)
+            continue;
+        tn_unjoined_branches *some = TN_ADD(unjoined_branches, row->unjoined, error);
+        if (!some)
+            return TN_MEMORY;
+        *some = (tn_unjoined_branches){counts.failures[i], reasons[i]};
+    }
+    return TN_OK;
+}
+
+/* ---- what a request says of growing, as a study of its own: so both mean the same and are checked alike */
+
+static void say_quoted(tn_buffer *out, const char *text)
+{
+    tn_buffer_append(out, "\"", 1);
+    for (; *text; text++) {
+        if (*text == '"' || *text == '\\')
+            tn_buffer_append(out, "\\", 1);
+        tn_buffer_append(out, text, 1);
+    }
+    tn_buffer_append(out, "\"\n", 2);
+}
+
+/* Words of studies have hyphens. */
+static void say_word(tn_buffer *out, const char *member)
+{
+    for (; *member; member++)
+        tn_buffer_append(out, *member == '_' ? "-" : member, 1);
+}
+
+static void say_texts(tn_buffer *out, const char *member, const tn_texts *texts)
+{
+    bool whole = strcmp(member, "statements") == 0;
+    for (size_t i = 0; i < texts->count; i++) {
+        if (!whole)
+            say_word(out, member);
+        tn_buffer_printf(out, "%s%s\n", whole ? "" : " ", texts->items[i]);
+    }
+}
+
+static void say_text(tn_buffer *out, const char *member, const char *text)
+{
+    if (!text)
+        return;
+    say_word(out, member);
+    tn_buffer_append(out, " ", 1);
+    if (strcmp(member, "distance_to") == 0)
+        say_quoted(out, text);
+    else
+        tn_buffer_printf(out, "%s\n", text);
+}
+
+static void say_member(tn_buffer *out, const tn_message_member *m, const tn_grow_statements *said)
+{
+    const char *value = (const char *)said + m->offset;
+    switch (m->kind) {
+    case TN_MESSAGE_TEXTS:
+        say_texts(out, m->name, (const tn_texts *)(const void *)value);
+        break;
+    case TN_MESSAGE_TEXT:
+        say_text(out, m->name, *(const char *const *)(const void *)value);
+        break;
+    case TN_MESSAGE_COUNT:
+        if (*((const char *)said + m->has))
+            tn_buffer_printf(out, "%s %" PRIu64 "\n", m->name, *(const uint64_t *)(const void *)value);
+        break;
+    default: /* a flag */
+        if (*(const bool *)(const void *)value) {
+            say_word(out, m->name);
+            tn_buffer_append(out, "\n", 1);
+        }
+    }
+}
+
+tn_status tn_grow_study_text(const tn_grow_statements *said, const char *path, bool rules, char **text, size_t *size,
+                             tn_error *error)
+{
+    const tn_message *message = &tn_message_grow_statements;
+    tn_buffer out = {0};
+    *text = NULL;
+    tn_buffer_printf(&out, "%s", rules ? "rules " : "use ");
+    say_quoted(&out, path);
+    size_t begun = out.size;
+    for (size_t i = 0; i < message->member_count; i++)
+        say_member(&out, &message->members[i], said);
+    if (out.failed || out.size == begun) {
+        free(out.data);
+        return out.failed ? tn_fail_memory(error) : TN_OK;
+    }
+    *text = out.data;
+    *size = out.size;
+    return TN_OK;
+}
+
+/* ---- the question */
 
 #define FORECAST_FACES 10000000.0 /* growths that will pass this many faces are announced */
 #define IDLE_STEPS 100u           /* on end without a new face: then no number of faces is waited for any more */
@@ -132,7 +463,7 @@ static tn_status note_step(run_state *run, tn_error *error)
 {
     tn_growing *g = &run->g;
     uint32_t step = tn_growth_steps(g->growth);
-    tn_status status = g->grown->has_stats ? tn_grown_measure(g, error) : TN_OK;
+    tn_status status = g->grown->has_stats ? grown_measure(g, error) : TN_OK;
     size_t overlaid = overlays(run, step);
     if (status == TN_OK && overlaid > 0)
         status = tn_growth_display_add(g->growth, &run->overlaid, error);
@@ -141,7 +472,7 @@ static tn_status note_step(run_state *run, tn_error *error)
         status = note_view(run, error);
     else if (status == TN_OK && g->request->each_step)
         status = write_step(run, error);
-    return status == TN_OK && g->grown->has_joins && step > 0 ? tn_grown_explain(g, error) : status;
+    return status == TN_OK && g->grown->has_joins && step > 0 ? grown_explain(g, error) : status;
 }
 
 /* Tells whoever waits for the steps which one stands. */

@@ -47,12 +47,6 @@ typedef struct tn_growing {
 
 /* ---- steps */
 
-/* Measures the step that the growth is at, and adds it to the answer. */
-tn_status tn_grown_measure(tn_growing *g, tn_error *error);
-
-/* Adds why its branches did not join. */
-tn_status tn_grown_explain(tn_growing *g, tn_error *error);
-
 /* ---- files */
 
 /* Adds the growth as it stands, a mesh or a picture, to the files. name: of one of several, or NULL. */

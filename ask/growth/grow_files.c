@@ -6,6 +6,7 @@
 #include "ask/growth/grow.h"
 #include "ask/session/made.h"
 #include "driver/mesh/mesh_file.h"
+#include "runtime/growth/growth.h"
 #include "runtime/growth/surface.h"
 #include "runtime/scene/apng.h"
 

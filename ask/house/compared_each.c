@@ -100,7 +100,7 @@ static tn_status compare_plan(tn_compared_way *w, const tn_tray *trays, uint32_t
     mpz_init(first);
     tn_status status = tn_watch_check(w->c->sides[w->from].n.form.module->watch, error);
     if (status == TN_OK)
-        status = tn_house_variants_each(w->c->sides[w->from].n.variants, own, length, first, compare_house, w, error);
+        status = tn_numbered_each(&w->c->sides[w->from].n, own, length, first, compare_house, w, error);
     mpz_clear(first);
     free(own);
     return status;
@@ -173,10 +173,8 @@ static tn_status check_number(const tn_compared_houses *c, const tn_compared_opt
     if (!old)
         return tn_fail_memory(error);
     mpz_init(sum);
-    tn_status status =
-        tn_numbered_other(n, n->form.module, n->record, tn_library_diff_part(c->plans, TN_DIFF_KEPT), &both, error);
-    if (status == TN_OK)
-        status = tn_numbered_lengths(&both, c->low, c->high, old, error);
+    tn_numbered_other(n, n->form.module, n->record, tn_library_diff_part(c->plans, TN_DIFF_KEPT), &both);
+    tn_status status = tn_numbered_lengths(&both, c->low, c->high, old, error);
     for (size_t i = 0; i < lengths; i++) {
         mpz_add(sum, sum, old[i]);
         if (!tn_compared_other_plans(c))

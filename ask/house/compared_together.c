@@ -54,10 +54,8 @@ static tn_status count_clause(const tn_compared_houses *c, int strict, tn_house_
     record.clause_first = 0;
     record.clause_count = module.HOUSE_CLAUSE_count = gather_clauses(side, edit->clause[strict], clauses);
     module.HOUSE_CLAUSE_records = clauses;
-    tn_status status =
-        tn_numbered_other(&side->n, &module, &record, tn_library_diff_part(c->plans, TN_DIFF_KEPT), &kept_out, error);
-    if (status == TN_OK)
-        status = count_all(c, &kept_out, NULL, edit->houses[which], error);
+    tn_numbered_other(&side->n, &module, &record, tn_library_diff_part(c->plans, TN_DIFF_KEPT), &kept_out);
+    tn_status status = count_all(c, &kept_out, NULL, edit->houses[which], error);
     if (status == TN_OK)
         status = tn_edit_sample(edit, which, &kept_out, options, error);
     tn_numbered_other_close(&kept_out);
@@ -72,11 +70,9 @@ tn_status tn_compared_own_plans(const tn_compared_houses *c, int which, tn_house
 {
     const tn_numbered *n = &c->sides[which].n;
     tn_numbered own = {0};
-    tn_status status =
-        tn_numbered_other(n, n->form.module, n->record,
-                          tn_library_diff_part(c->plans, which ? TN_DIFF_ADDED : TN_DIFF_REMOVED), &own, error);
-    if (status == TN_OK)
-        status = count_all(c, &own, NULL, edit->houses[which], error);
+    tn_numbered_other(n, n->form.module, n->record,
+                      tn_library_diff_part(c->plans, which ? TN_DIFF_ADDED : TN_DIFF_REMOVED), &own);
+    tn_status status = count_all(c, &own, NULL, edit->houses[which], error);
     if (status == TN_OK)
         status = tn_edit_sample(edit, which, &own, options, error);
     tn_numbered_other_close(&own);
@@ -90,10 +86,8 @@ static tn_status count_kept(tn_compared_houses *c, int strict, tn_error *error)
     tn_numbered both = {0};
     mpz_t sum;
     mpz_init(sum);
-    tn_status status =
-        tn_numbered_other(n, n->form.module, n->record, tn_library_diff_part(c->plans, TN_DIFF_KEPT), &both, error);
-    if (status == TN_OK)
-        status = count_all(c, &both, c->kept, sum, error);
+    tn_numbered_other(n, n->form.module, n->record, tn_library_diff_part(c->plans, TN_DIFF_KEPT), &both);
+    tn_status status = count_all(c, &both, c->kept, sum, error);
     tn_numbered_other_close(&both);
     mpz_clear(sum);
     return status;

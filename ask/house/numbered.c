@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/session/spelled.h"
 #include "runtime/base/nearest.h"
 
 tn_house_settings tn_asked_houses(const tn_library_asked *asked)
@@ -101,10 +102,8 @@ tn_status tn_numbered_open(tn_numbered *n, tn_session *session, const tn_house_s
     status = tn_schema_new(module, module->FORM_records[n->record->form].schema, 0, &n->schema, &error);
     if (status == TN_OK) {
         tn_form_ready(module, n->record->form, n->schema, &n->form);
-        status = tn_house_variants_new(&n->form, n->record, 0, &n->variants, &error);
-    }
-    if (status == TN_OK)
         status = tn_library_new(n->schema, n->record->plans, &settings->plans, &n->opened, &error);
+    }
     n->plans = n->opened;
     if (status == TN_OK)
         status = tn_houses_check_walls(&n->form, n->record, n->plans, &error);
@@ -114,36 +113,34 @@ tn_status tn_numbered_open(tn_numbered *n, tn_session *session, const tn_house_s
 void tn_numbered_close(tn_numbered *n)
 {
     tn_numbered_forget_ranks(n);
-    tn_house_variants_free(n->quick);
     tn_house_rules_free(n->rules);
     tn_houses_free(n->all);
-    tn_house_variants_free(n->variants);
+    tn_house_listing_free(n->listing);
     tn_library_free(n->opened);
     tn_schema_free(n->schema);
 }
 
-tn_status tn_numbered_other(const tn_numbered *n, const tn_module *module, const tn_house_library_record *record,
-                            const tn_library *plans, tn_numbered *other, tn_error *error)
+void tn_numbered_other(const tn_numbered *n, const tn_module *module, const tn_house_library_record *record,
+                       const tn_library *plans, tn_numbered *other)
 {
     *other = *n;
     other->form.module = module;
     other->record = record;
     other->plans = plans;
     other->opened = NULL;
-    other->variants = other->quick = NULL;
+    other->listing = NULL;
     other->rules = NULL;
     other->all = NULL;
     other->ranked = (tn_numbered_ranked){0};
-    return tn_house_variants_new(&other->form, record, 0, &other->variants, error);
+    other->plans_alone = 0;
 }
 
 void tn_numbered_other_close(tn_numbered *other)
 {
     tn_numbered_forget_ranks(other);
-    tn_house_variants_free(other->quick);
     tn_house_rules_free(other->rules);
     tn_houses_free(other->all);
-    tn_house_variants_free(other->variants);
+    tn_house_listing_free(other->listing);
     *other = (tn_numbered){0};
 }
 

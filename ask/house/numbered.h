@@ -5,9 +5,9 @@
 
 #include "ask/session/session.h"
 #include "driver/house/judge.h"
+#include "runtime/house/count/listing.h"
 #include "runtime/house/house.h"
 #include "runtime/house/rank/rank.h"
-#include "runtime/house/variant/variant.h"
 #include "runtime/plan/library/library.h"
 
 /* What is asked of the library of houses and of its plans. */
@@ -37,12 +37,12 @@ typedef struct tn_numbered {
     tn_schema *schema;
     tn_house_form form;
     const tn_library *plans;
-    tn_library *opened; /* the same where tn_numbered_open made it */
-    tn_house_variants *variants;
-    tn_house_variants *quick; /* with a small limit of work, or NULL: not asked for */
-    tn_house_rules *rules;    /* or NULL: no house was judged yet */
-    tn_houses *all;           /* or NULL: not asked for */
+    tn_library *opened;        /* the same where tn_numbered_open made it */
+    tn_house_listing *listing; /* or NULL: all houses that were asked for could be counted */
+    tn_house_rules *rules;     /* or NULL: no house was judged yet */
+    tn_houses *all;            /* or NULL: not asked for */
     tn_numbered_ranked ranked;
+    uint32_t plans_alone; /* that were counted by themselves */
     uint32_t max_states;
 } tn_numbered;
 
@@ -60,8 +60,8 @@ void tn_numbered_close(tn_numbered *n);
 
 /* The same form with other clauses, in another copy of its module, or on other plans with the same trays; all are
  * borrowed. Close it in any case. */
-tn_status tn_numbered_other(const tn_numbered *n, const tn_module *module, const tn_house_library_record *record,
-                            const tn_library *plans, tn_numbered *other, tn_error *error);
+void tn_numbered_other(const tn_numbered *n, const tn_module *module, const tn_house_library_record *record,
+                       const tn_library *plans, tn_numbered *other);
 void tn_numbered_other_close(tn_numbered *other);
 
 /* How many houses are on plans of each length from low to high. */
@@ -90,6 +90,16 @@ tn_status tn_numbered_on_plan(tn_numbered *n, const tn_tray *trays, uint32_t len
 tn_status tn_numbered_among(tn_numbered *n, tn_houses *among, const tn_tray *trays, uint32_t length,
                             tn_plan_houses **houses, tn_error *error);
 void tn_numbered_forget_ranks(tn_numbered *n);
+
+/* How many houses are on a plan: counted tray by tray or, beyond the limits of that, by going through them. */
+tn_status tn_numbered_houses_on(tn_numbered *n, const tn_tray *trays, uint32_t length, mpz_t houses, tn_error *error);
+
+/* Calls `each` with them, in order, from that number on, until *stop. */
+tn_status tn_numbered_each(tn_numbered *n, const tn_tray *trays, uint32_t length, const mpz_t from, tn_house_each *each,
+                           void *context, tn_error *error);
+
+/* What goes through the houses that cannot be counted tray by tray. */
+tn_status tn_numbered_listing(tn_numbered *n, tn_house_listing **listing, tn_error *error);
 
 /* The house of a number on a plan. Clear *house in any case. */
 tn_status tn_numbered_at(tn_numbered *n, const tn_tray *trays, uint32_t length, const mpz_t variant, tn_house *house,

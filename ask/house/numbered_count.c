@@ -7,7 +7,7 @@
 
 /* What was counted. */
 typedef struct house_tally {
-    bool each;         /* the plans were gone through */
+    bool each;         /* the plans were counted one by one */
     bool faced_unsaid; /* houses without their tiles were not counted */
     bool with_wanted;  /* plans, sections and functions that have a house are asked for */
     bool with_unsaid;  /* but they were not counted */
@@ -52,6 +52,15 @@ static void tally_free(const tn_numbered *n, house_tally *tally)
     tn_houses_projected_clear(&tally->with);
 }
 
+static tn_status tally_afresh(const tn_numbered *n, house_tally *tally, tn_error *error)
+{
+    bool wanted = tally->with_wanted;
+    tally_free(n, tally);
+    bool ok = tally_new(n, tally);
+    tally->with_wanted = wanted;
+    return ok ? TN_OK : tn_fail_memory(error);
+}
+
 /* ---- sections */
 
 typedef struct section_tally {
@@ -90,34 +99,9 @@ static bool next_section(const tn_numbered *n, uint32_t *shapes)
     return false;
 }
 
-/* ---- plan by plan */
-
-static tn_status tally_plan(tn_numbered *n, const tn_tray *trays, uint32_t length, house_tally *tally, tn_error *error)
-{
-    section_tally sections = {n, tally};
-    mpz_t before;
-    mpz_init_set(before, tally->houses);
-    tn_status status = tn_house_variants_sections(n->variants, trays, length, tally_section, &sections, error);
-    mpz_add_ui(tally->plans, tally->plans, 1);
-    if (mpz_cmp(before, tally->houses) != 0)
-        mpz_add_ui(tally->with.plans, tally->with.plans, 1);
-    mpz_sub(before, tally->houses, before);
-    if (length >= tally->low && length <= tally->high)
-        mpz_add(tally->lengths[length - tally->low], tally->lengths[length - tally->low], before);
-    mpz_clear(before);
-    return status;
-}
-
-static tn_status tally_next(tn_numbered *n, void *context, const tn_tray *trays, uint32_t length, bool *stop,
-                            tn_error *error)
-{
-    (void)stop;
-    return tally_plan(n, trays, length, context, error);
-}
-
 /* ---- all together */
 
-/* Plans, sections and functions that have a house. To count them may take too much where houses can be counted. */
+/* Plans, sections and functions that have a house. To count them may take too much though houses can be counted. */
 static tn_status tally_with(tn_houses *all, house_tally *tally, tn_error *error)
 {
     tn_status status = tally->with_wanted ? tn_houses_project(all, &tally->with, error) : TN_LIMIT;
@@ -125,14 +109,54 @@ static tn_status tally_with(tn_houses *all, house_tally *tally, tn_error *error)
     return status == TN_LIMIT ? TN_OK : status;
 }
 
-static tn_status tally_together(const tn_numbered *n, tn_houses *all, house_tally *tally, tn_error *error)
+/* Houses without their tiles, if the count does not say how many there are: gone through on few plans, if there are few
+ * of them. */
+typedef struct tn_going_faced {
+    tn_houses *houses;
+    house_tally *tally;
+} tn_going_faced;
+
+static tn_status add_faced(tn_numbered *n, void *context, const tn_tray *trays, uint32_t length, bool *stop,
+                           tn_error *error)
+{
+    enum { FACED_MOST = 3000 };
+    const tn_going_faced *g = context;
+    tn_plan_houses *plan;
+    uint64_t faced = 0;
+    bool known = false;
+    (void)n;
+    tn_status status = tn_plan_houses_new(g->houses, trays, length, &plan, error);
+    if (status == TN_OK)
+        status = tn_plan_houses_faced(plan, FACED_MOST - mpz_get_ui(g->tally->faced), &faced, &known, error);
+    tn_plan_houses_free(plan);
+    mpz_add_ui(g->tally->faced, g->tally->faced, faced);
+    *stop = g->tally->faced_unsaid = !known;
+    return status;
+}
+
+static tn_status tally_faced(tn_numbered *n, tn_houses *all, const tn_plan *plan, house_tally *tally, tn_error *error)
+{
+    tn_going_faced g = {all, tally};
+    bool stop;
+    tally->faced_unsaid = !tn_houses_faced_known(all);
+    if (!tally->faced_unsaid) {
+        tn_houses_faced(all, tally->faced);
+        return TN_OK;
+    }
+    if (!tally->with_wanted || (!plan && !tn_numbered_few(n)))
+        return TN_OK;
+    mpz_set_ui(tally->faced, 0);
+    tally->faced_unsaid = false;
+    return plan ? add_faced(n, &g, plan->trays, (uint32_t)plan->length, &stop, error)
+                : tn_numbered_plans(n, add_faced, &g, error);
+}
+
+static tn_status tally_together(tn_numbered *n, tn_houses *all, const tn_plan *plan, house_tally *tally,
+                                tn_error *error)
 {
     uint32_t shapes[TN_CHOICES_MAX] = {0};
     mpz_t houses;
     mpz_init(houses);
-    tally->each = false;
-    tn_houses_faced(all, tally->faced);
-    tally->faced_unsaid = !tn_houses_faced_known(all);
     tn_houses_count(all, TN_ALL_LENGTHS, tally->houses);
     tally->states = tn_houses_states(all);
     for (uint32_t k = tally->low; k <= tally->high; k++) {
@@ -144,23 +168,8 @@ static tn_status tally_together(const tn_numbered *n, tn_houses *all, house_tall
         add_section(n, tally, shapes, houses);
     }
     mpz_clear(houses);
-    return tally_with(all, tally, error);
-}
-
-/* Plan by plan, each in so many steps (0: the usual limit). */
-static tn_status tally_each(tn_numbered *n, const tn_plan *plan, uint64_t work, house_tally *tally, tn_error *error)
-{
-    tn_house_variants *variants = n->variants;
-    tn_status status = work > 0 ? tn_house_variants_new(&n->form, n->record, work, &n->variants, error) : TN_OK;
-    tally->each = true;
-    if (status == TN_OK && plan)
-        status = tally_plan(n, plan->trays, (uint32_t)plan->length, tally, error);
-    else if (status == TN_OK)
-        status = tn_numbered_plans(n, tally_next, tally, error);
-    if (n->variants != variants)
-        tn_house_variants_free(n->variants);
-    n->variants = variants;
-    return status;
+    tn_status status = tally_faced(n, all, plan, tally, error);
+    return status == TN_OK ? tally_with(all, tally, error) : status;
 }
 
 static tn_status count_together(tn_numbered *n, const tn_plan *plan, house_tally *tally, tn_error *error)
@@ -169,58 +178,101 @@ static tn_status count_together(tn_numbered *n, const tn_plan *plan, house_tally
     if (!plan) {
         tn_status status = tn_numbered_all(n, error);
         tn_library_kept(n->plans, TN_ALL_LENGTHS, tally->plans);
-        return status == TN_OK ? tally_together(n, n->all, tally, error) : status;
+        return status == TN_OK ? tally_together(n, n->all, NULL, tally, error) : status;
     }
-    const tn_houses_what what = {.only = plan->trays, .length = (uint32_t)plan->length};
-    tn_status status = tn_numbered_of(n, &what, &houses, error);
+    tn_status status = tn_numbered_on_plan(n, plan->trays, (uint32_t)plan->length, &houses, error);
     mpz_set_ui(tally->plans, 1);
     if (status == TN_OK)
-        status = tally_together(n, houses, tally, error);
+        status = tally_together(n, houses, plan, tally, error);
     tn_houses_free(houses);
     return status;
 }
 
-static tn_status tally_afresh(const tn_numbered *n, house_tally *tally, tn_error *error)
+/* ---- plan by plan */
+
+/* Gone through one by one. */
+static tn_status tally_listed(tn_numbered *n, const tn_tray *trays, uint32_t length, house_tally *tally,
+                              tn_error *error)
 {
-    bool wanted = tally->with_wanted;
-    tally_free(n, tally);
-    bool ok = tally_new(n, tally);
-    tally->with_wanted = wanted;
-    return ok ? TN_OK : tn_fail_memory(error);
+    section_tally sections = {n, tally};
+    tn_house_listing *listing;
+    mpz_set_ui(tally->plans, 1);
+    tn_status status = tn_numbered_listing(n, &listing, error);
+    if (status == TN_OK)
+        status = tn_house_listing_sections(listing, trays, length, tally_section, &sections, error);
+    mpz_set_ui(tally->with.plans, mpz_sgn(tally->houses) > 0);
+    if (length >= tally->low && length <= tally->high)
+        mpz_set(tally->lengths[length - tally->low], tally->houses);
+    return status;
 }
 
-/* The steps in which a plan is gone through quickly. */
-static uint64_t quick_steps(const tn_numbered *n, const tn_plan *plan)
+static void add_tally(const tn_numbered *n, house_tally *tally, const house_tally *one)
 {
-    enum { QUICK = 50000, QUICK_ALONE = 300000 };
-    mpz_t plans;
-    mpz_init(plans);
-    tn_library_kept(n->plans, TN_ALL_LENGTHS, plans);
-    uint64_t steps = plan || mpz_cmp_ui(plans, 1) <= 0 ? QUICK_ALONE : QUICK;
-    mpz_clear(plans);
-    return steps;
+    tally->with_unsaid = tally->with_unsaid || one->with_unsaid;
+    tally->faced_unsaid = tally->faced_unsaid || one->faced_unsaid;
+    mpz_add(tally->with.plans, tally->with.plans, one->with.plans);
+    mpz_add(tally->with.sections, tally->with.sections, one->with.sections);
+    mpz_add(tally->with.functions, tally->with.functions, one->with.functions);
+    mpz_add(tally->plans, tally->plans, one->plans);
+    mpz_add(tally->faced, tally->faced, one->faced);
+    mpz_add(tally->houses, tally->houses, one->houses);
+    for (uint32_t k = 0; k <= tally->high - tally->low; k++)
+        mpz_add(tally->lengths[k], tally->lengths[k], one->lengths[k]);
+    for (size_t i = 0; i < value_count(n); i++)
+        mpz_add(tally->values[i], tally->values[i], one->values[i]);
 }
 
-/* Few plans are gone through, unless one of them takes long; else all are counted together, if that can be done. */
+/* Together for this plan, or one by one if that cannot be done. */
+static tn_status tally_plan(tn_numbered *n, void *context, const tn_tray *trays, uint32_t length, bool *stop,
+                            tn_error *error)
+{
+    house_tally *tally = context, one;
+    tn_plan plan = {.length = length};
+    (void)stop;
+    plan.trays = malloc(((size_t)length + 1) * sizeof *trays);
+    tn_status status = tally_new(n, &one) && plan.trays ? TN_OK : tn_fail_memory(error);
+    one.with_wanted = tally->with_wanted;
+    if (status == TN_OK) {
+        if (length > 0)
+            memcpy(plan.trays, trays, length * sizeof *trays);
+        status = count_together(n, &plan, &one, error);
+    }
+    if (status == TN_LIMIT) {
+        status = tally_afresh(n, &one, error);
+        if (status == TN_OK)
+            status = tally_listed(n, trays, length, &one, error);
+    }
+    if (status == TN_OK)
+        add_tally(n, tally, &one);
+    tally_free(n, &one);
+    free(plan.trays);
+    return status;
+}
+
+/* All are counted together if that can be done, else the houses on each plan. */
 static tn_status tally_all(tn_numbered *n, const tn_plan *plan, house_tally *tally, tn_error *error)
 {
-    tn_status status = TN_LIMIT;
-    if (plan || tn_numbered_few(n))
-        status = tally_each(n, plan, quick_steps(n, plan), tally, error);
-    if (status != TN_LIMIT)
-        return status;
-    status = tally_afresh(n, tally, error);
-    if (status == TN_OK)
-        status = count_together(n, plan, tally, error);
+    tn_status status = count_together(n, plan, tally, error);
     if (status != TN_LIMIT || (!plan && !tn_numbered_countable(n)))
         return status;
     const tn_error together = *error;
     status = tally_afresh(n, tally, error);
-    if (status == TN_OK)
-        status = tally_each(n, plan, 0, tally, error);
-    if (status == TN_LIMIT && !plan) /* what keeps all plans from being counted says more than what one of them takes */
+    tally->each = true;
+    if (status != TN_OK)
+        return status;
+    if (plan)
+        return tally_listed(n, plan->trays, (uint32_t)plan->length, tally, error);
+    status = tn_numbered_plans(n, tally_plan, tally, error);
+    if (status == TN_LIMIT) /* what keeps all plans from being counted says more than what one of them takes */
         *error = together;
     return status;
+}
+
+/* States are of interest if a count takes many of them, or is of many plans. */
+static bool says_states(const tn_numbered *n, const tn_plan *plan, const house_tally *tally)
+{
+    enum { MANY_STATES = 1000 };
+    return !tally->each && (tally->states >= MANY_STATES || (!plan && !tn_numbered_few(n)));
 }
 
 tn_status tn_numbered_lengths(tn_numbered *n, uint32_t low, uint32_t high, mpz_t *lengths, tn_error *error)
@@ -255,14 +307,13 @@ static tn_status count_by(const tn_numbered *n, const tn_module *module, const t
 {
     tn_numbered some;
     house_tally tally;
-    tn_status status = tn_numbered_other(n, module, clauses, n->plans, &some, error);
-    if (!tally_new(&some, &tally) && status == TN_OK)
-        status = tn_fail_memory(error);
+    tn_numbered_other(n, module, clauses, n->plans, &some);
+    tn_status status = tally_new(&some, &tally) ? TN_OK : tn_fail_memory(error);
     if (status == TN_OK)
         status = tally_all(&some, plan, &tally, error);
     mpz_set(houses, tally.houses);
     if (states)
-        *states = tally.each ? 0 : tally.states;
+        *states = says_states(&some, plan, &tally) ? tally.states : 0;
     tally_free(&some, &tally);
     tn_numbered_other_close(&some);
     return status;
@@ -389,10 +440,10 @@ static tn_status give_sections(const tn_numbered *n, const house_tally *tally, t
     return status;
 }
 
-/* States, where all was counted with them. */
-static bool knows_states(const tn_numbered *n, const house_tally *tally)
+/* Those of each clause by itself. */
+static bool knows_states(const tn_numbered *n, const tn_plan *plan, const house_tally *tally)
 {
-    bool known = !tally->each;
+    bool known = says_states(n, plan, tally);
     for (uint32_t i = 0; known && i <= n->record->clause_count; i++)
         known = tally->asking[i] > 0;
     return known;
@@ -418,8 +469,8 @@ static tn_status give_states(const tn_numbered *n, const house_tally *tally, tn_
     return status;
 }
 
-static tn_status give_clauses(const tn_numbered *n, const house_tally *tally, tn_counted_houses *counted,
-                              tn_error *error)
+static tn_status give_clauses(const tn_numbered *n, const tn_plan *plan, const house_tally *tally,
+                              tn_counted_houses *counted, tn_error *error)
 {
     uint32_t count = n->record->clause_count;
     counted->has_without_clauses = counted->has_kept_out = counted->has_only = true;
@@ -434,10 +485,11 @@ static tn_status give_clauses(const tn_numbered *n, const house_tally *tally, tn
         if (status == TN_OK)
             status = name_of(clause_name(n, i), &counted->only.items[i].name, error);
     }
-    return status == TN_OK && knows_states(n, tally) ? give_states(n, tally, counted, error) : status;
+    return status == TN_OK && knows_states(n, plan, tally) ? give_states(n, tally, counted, error) : status;
 }
 
-static tn_status give(const tn_numbered *n, const house_tally *tally, tn_counted_houses *counted, tn_error *error)
+static tn_status give(const tn_numbered *n, const tn_plan *plan, const house_tally *tally, tn_counted_houses *counted,
+                      tn_error *error)
 {
     counted->library = tn_text(n->form.module, n->record->name);
     mpz_set(counted->plans, tally->plans);
@@ -446,14 +498,14 @@ static tn_status give(const tn_numbered *n, const house_tally *tally, tn_counted
     mpz_set(counted->plans_with_houses, tally->with.plans);
     mpz_set(counted->with_sections, tally->with.sections);
     mpz_set(counted->zoned, tally->with.functions);
-    counted->has_states = !tally->each;
+    counted->has_states = says_states(n, plan, tally);
     counted->states = tally->states;
     counted->has_faced = !tally->faced_unsaid;
     mpz_set(counted->faced, tally->faced);
     tn_status status = give_lengths(tally, counted, error);
     if (status == TN_OK)
         status = give_sections(n, tally, counted, error);
-    return status == TN_OK && tally->kept_out ? give_clauses(n, tally, counted, error) : status;
+    return status == TN_OK && tally->kept_out ? give_clauses(n, plan, tally, counted, error) : status;
 }
 
 tn_status tn_numbered_count(tn_numbered *n, const tn_plan *plan, bool clauses, tn_counted_houses *counted,
@@ -467,7 +519,7 @@ tn_status tn_numbered_count(tn_numbered *n, const tn_plan *plan, bool clauses, t
     if (status == TN_OK && clauses)
         status = tally_clauses(n, plan, &tally, error);
     if (status == TN_OK)
-        status = give(n, &tally, counted, error);
+        status = give(n, plan, &tally, counted, error);
     tally_free(n, &tally);
     return status;
 }

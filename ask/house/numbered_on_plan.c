@@ -1,4 +1,5 @@
-/* Numbers of the houses on one plan: gone through one by one where that is quick, else counted tray by tray. */
+/* Numbers of the houses on one plan, which are counted tray by tray; beyond the limits of that they are gone through.
+ */
 #include <stdlib.h>
 #include <string.h>
 
@@ -45,7 +46,7 @@ static tn_status rank(tn_numbered *n, tn_houses *among, const tn_tray *trays, ui
     n->ranked.among = among;
     tn_status status = among ? TN_OK : count_alone(n, trays, length, error);
     if (status == TN_OK)
-        status = tn_house_ranks_new(among ? among : n->ranked.counted, n->variants, &n->ranked.ranks, error);
+        status = tn_house_ranks_new(among ? among : n->ranked.counted, &n->ranked.ranks, error);
     if (status != TN_OK)
         tn_numbered_forget_ranks(n);
     return status;
@@ -71,55 +72,88 @@ tn_status tn_numbered_find(tn_numbered *n, tn_houses *among, mpz_t number, tn_tr
     return status;
 }
 
-/* Goes through the houses one by one with few steps, where they are not counted yet. */
-static bool try_quick(const tn_numbered *n, const tn_tray *trays, uint32_t length)
+tn_status tn_numbered_listing(tn_numbered *n, tn_house_listing **listing, tn_error *error)
 {
-    return !n->all && !is_ranked(&n->ranked, NULL, trays, length);
+    tn_status status = n->listing ? TN_OK : tn_house_listing_new(&n->form, n->record, 0, &n->listing, error);
+    *listing = n->listing;
+    return status;
 }
 
-static tn_status make_quick(tn_numbered *n, tn_error *error)
+/* *plan: the houses by their numbers; or NULL, and *listing is what goes through them. */
+static tn_status find_on(tn_numbered *n, tn_houses *among, const tn_tray *trays, uint32_t length, tn_plan_houses **plan,
+                         tn_house_listing **listing, tn_error *error)
 {
-    enum { STEPS = 20000 };
-    return n->quick ? TN_OK : tn_house_variants_new(&n->form, n->record, STEPS, &n->quick, error);
+    tn_status status = tn_numbered_among(n, among, trays, length, plan, error);
+    *listing = NULL;
+    return status == TN_LIMIT ? tn_numbered_listing(n, listing, error) : status;
 }
 
-static tn_status find_at(tn_numbered *n, const tn_tray *trays, uint32_t length, const mpz_t variant, tn_house *house,
-                         tn_error *error)
+/* To make ready what counts a plan takes longer than to count many plans with it. Once some were counted by themselves,
+ * all are counted together, if that takes few states. */
+static tn_status count_all_if_quick(tn_numbered *n, tn_error *error)
 {
-    tn_plan_houses *houses;
-    tn_status status = make_quick(n, error);
-    *house = (tn_house){0};
+    enum { PLANS = 8, STATES = 100000 };
+    const tn_houses_what all = {0};
+    if (n->all || n->plans_alone++ != PLANS)
+        return TN_OK;
+    uint32_t states = n->max_states > 0 && n->max_states < STATES ? n->max_states : STATES;
+    tn_status status = tn_houses_of(&n->form, n->record, n->plans, &all, states, &n->all, error);
+    return status == TN_LIMIT ? TN_OK : status;
+}
+
+tn_status tn_numbered_houses_on(tn_numbered *n, const tn_tray *trays, uint32_t length, mpz_t houses, tn_error *error)
+{
+    tn_plan_houses *plan;
+    tn_house_listing *listing = NULL;
+    tn_status status = count_all_if_quick(n, error);
     if (status == TN_OK)
-        status = try_quick(n, trays, length) ? tn_house_variants_at(n->quick, trays, length, variant, house, error)
-                                             : TN_LIMIT;
-    if (status != TN_LIMIT)
+        status = find_on(n, n->all, trays, length, &plan, &listing, error);
+    if (status != TN_OK)
         return status;
-    tn_house_clear(house);
-    status = tn_numbered_among(n, n->all, trays, length, &houses, error);
+    if (!listing)
+        return tn_plan_houses_count(plan, houses, error);
+    tn_house_counts counts;
+    tn_house_counts_init(&counts);
+    status = tn_house_listing_count(listing, trays, length, &counts, error);
+    mpz_set(houses, counts.houses);
+    tn_house_counts_clear(&counts);
+    return status;
+}
+
+tn_status tn_numbered_each(tn_numbered *n, const tn_tray *trays, uint32_t length, const mpz_t from, tn_house_each *each,
+                           void *context, tn_error *error)
+{
+    tn_plan_houses *plan;
+    tn_house_listing *listing = NULL;
+    tn_status status = count_all_if_quick(n, error);
     if (status == TN_OK)
-        status = tn_plan_houses_at(houses, variant, house, error);
-    return status == TN_LIMIT ? tn_house_variants_at(n->variants, trays, length, variant, house, error) : status;
+        status = find_on(n, n->all, trays, length, &plan, &listing, error);
+    if (status != TN_OK)
+        return status;
+    return listing ? tn_house_listing_each(listing, trays, length, from, each, context, error)
+                   : tn_plan_houses_each(plan, from, each, context, error);
 }
 
 tn_status tn_numbered_at(tn_numbered *n, const tn_tray *trays, uint32_t length, const mpz_t variant, tn_house *house,
                          tn_error *error)
 {
-    tn_status status = find_at(n, trays, length, variant, house, error);
+    tn_plan_houses *plan;
+    tn_house_listing *listing;
+    *house = (tn_house){0};
+    tn_status status = find_on(n, n->all, trays, length, &plan, &listing, error);
+    if (status == TN_OK)
+        status = listing ? tn_house_listing_at(listing, trays, length, variant, house, error)
+                         : tn_plan_houses_at(plan, variant, house, error);
     return status == TN_OK ? tn_numbered_judge(n, house, error) : status;
 }
 
 tn_status tn_numbered_number(tn_numbered *n, const tn_house *house, mpz_t variant, tn_error *error)
 {
-    tn_plan_houses *houses;
-    uint32_t length = (uint32_t)house->length;
-    tn_status status = make_quick(n, error);
-    if (status == TN_OK)
-        status =
-            try_quick(n, house->trays, length) ? tn_house_variants_rank(n->quick, house, variant, error) : TN_LIMIT;
-    if (status != TN_LIMIT)
+    tn_plan_houses *plan;
+    tn_house_listing *listing;
+    tn_status status = find_on(n, n->all, house->trays, (uint32_t)house->length, &plan, &listing, error);
+    if (status != TN_OK)
         return status;
-    status = tn_numbered_among(n, n->all, house->trays, length, &houses, error);
-    if (status == TN_OK)
-        status = tn_plan_houses_number(houses, house, variant, error);
-    return status == TN_LIMIT ? tn_house_variants_rank(n->variants, house, variant, error) : status;
+    return listing ? tn_house_listing_number(listing, house, variant, error)
+                   : tn_plan_houses_number(plan, house, variant, error);
 }

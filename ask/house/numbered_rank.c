@@ -141,15 +141,15 @@ static tn_status search_plan(tn_numbered *n, void *context, const tn_tray *trays
                              tn_error *error)
 {
     tn_house_search *s = context;
-    tn_house_counts counts;
-    tn_house_counts_init(&counts);
-    tn_status status = tn_house_variants_count(n->variants, trays, length, &counts, error);
-    *stop = s->found = status == TN_OK && mpz_cmp(s->left, counts.houses) < 0;
+    mpz_t houses;
+    mpz_init(houses);
+    tn_status status = tn_numbered_houses_on(n, trays, length, houses, error);
+    *stop = s->found = status == TN_OK && mpz_cmp(s->left, houses) < 0;
     if (s->found)
         status = tn_numbered_at(n, trays, length, s->left, s->house, error);
     else
-        mpz_sub(s->left, s->left, counts.houses);
-    tn_house_counts_clear(&counts);
+        mpz_sub(s->left, s->left, houses);
+    mpz_clear(houses);
     return status;
 }
 

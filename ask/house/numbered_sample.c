@@ -35,21 +35,33 @@ static tn_status sample_draw(tn_house_sample *s, uint64_t seed, const mpz_t boun
 static tn_status add_plan(tn_numbered *n, void *context, const tn_tray *trays, uint32_t length, bool *stop,
                           tn_error *error)
 {
+    mpz_ptr all = context;
+    mpz_t houses;
     (void)stop;
-    return tn_house_variants_count(n->variants, trays, length, context, error);
+    mpz_init(houses);
+    tn_status status = tn_numbered_houses_on(n, trays, length, houses, error);
+    mpz_add(all, all, houses);
+    mpz_clear(houses);
+    return status;
+}
+
+static tn_status find_house(tn_numbered *n, tn_house_sample *s, const tn_tray *trays, uint32_t length,
+                            const mpz_t variant, tn_house *house, tn_error *error)
+{
+    tn_plan_houses *houses;
+    if (!s->houses)
+        return tn_numbered_at(n, trays, length, variant, house, error);
+    tn_status status = tn_numbered_among(n, s->houses, trays, length, &houses, error);
+    if (status == TN_OK)
+        status = tn_plan_houses_at(houses, variant, house, error);
+    return status == TN_OK ? tn_numbered_judge(n, house, error) : status;
 }
 
 static tn_status use_house(tn_numbered *n, tn_house_sample *s, const tn_tray *trays, uint32_t length,
                            const mpz_t variant, const mpz_t rank, tn_error *error)
 {
     tn_house house = {0};
-    tn_plan_houses *houses = NULL;
-    tn_status status = s->houses ? tn_numbered_among(n, s->houses, trays, length, &houses, error) : TN_OK;
-    if (status == TN_OK)
-        status = houses ? tn_plan_houses_at(houses, variant, &house, error)
-                        : tn_house_variants_at(n->variants, trays, length, variant, &house, error);
-    if (status == TN_OK)
-        status = tn_numbered_judge(n, &house, error);
+    tn_status status = find_house(n, s, trays, length, variant, &house, error);
     if (status == TN_OK)
         status = s->use(s->context, &house, rank, variant, error);
     tn_house_clear(&house);
@@ -61,21 +73,18 @@ static tn_status use_plan(tn_numbered *n, void *context, const tn_tray *trays, u
                           tn_error *error)
 {
     tn_house_sample *s = context;
-    tn_house_counts counts;
-    mpz_t variant;
-    mpz_init(variant);
-    tn_house_counts_init(&counts);
-    tn_status status = tn_house_variants_count(n->variants, trays, length, &counts, error);
-    mpz_add(counts.houses, counts.houses, s->before);
-    while (status == TN_OK && s->next < s->count && mpz_cmp(s->ranks[s->next], counts.houses) < 0) {
+    mpz_t variant, end;
+    mpz_inits(variant, end, NULL);
+    tn_status status = tn_numbered_houses_on(n, trays, length, end, error);
+    mpz_add(end, end, s->before);
+    while (status == TN_OK && s->next < s->count && mpz_cmp(s->ranks[s->next], end) < 0) {
         mpz_sub(variant, s->ranks[s->next], s->before);
         status = use_house(n, s, trays, length, variant, s->ranks[s->next], error);
         s->next++;
     }
-    mpz_set(s->before, counts.houses);
+    mpz_set(s->before, end);
     *stop = s->next == s->count;
-    tn_house_counts_clear(&counts);
-    mpz_clear(variant);
+    mpz_clears(variant, end, NULL);
     return status;
 }
 
@@ -110,52 +119,29 @@ static tn_status sample_together(tn_numbered *n, tn_houses *houses, size_t wante
     return status;
 }
 
-/* Are the houses on the plan counted in few steps? */
-static tn_status is_quick(const tn_numbered *n, const tn_plan *plan, bool *quick, tn_error *error)
-{
-    enum { QUICK = 20000 };
-    tn_house_variants *variants = NULL;
-    tn_house_counts counts;
-    tn_house_counts_init(&counts);
-    tn_status status = tn_house_variants_new(&n->form, n->record, QUICK, &variants, error);
-    if (status == TN_OK)
-        status = tn_house_variants_count(variants, plan->trays, plan->length, &counts, error);
-    *quick = status == TN_OK;
-    tn_house_variants_free(variants);
-    tn_house_counts_clear(&counts);
-    return status == TN_LIMIT ? TN_OK : status;
-}
-
-/* The houses that are counted tray by tray: all, or those on a plan that are not counted quickly. NULL: they cannot be,
- * or are few. */
+/* The houses that are counted tray by tray: all, or those on a plan. NULL: they cannot be. */
 static tn_status count_together(tn_numbered *n, const tn_plan *plan, tn_houses **houses, tn_error *error)
 {
-    bool quick;
     *houses = NULL;
-    if (!plan) {
-        tn_status status = tn_numbered_all(n, error);
-        *houses = status == TN_OK ? n->all : NULL;
-        return status == TN_LIMIT && tn_numbered_countable(n) ? TN_OK : status;
-    }
-    tn_status status = is_quick(n, plan, &quick, error);
-    if (status == TN_OK && !quick)
-        status = tn_numbered_on_plan(n, plan->trays, (uint32_t)plan->length, houses, error);
-    return status == TN_LIMIT ? TN_OK : status;
+    tn_status status =
+        plan ? tn_numbered_on_plan(n, plan->trays, (uint32_t)plan->length, houses, error) : tn_numbered_all(n, error);
+    if (status == TN_OK && !plan)
+        *houses = n->all;
+    return status == TN_LIMIT && (plan || tn_numbered_countable(n)) ? TN_OK : status;
 }
 
 static tn_status sample_one_by_one(tn_numbered *n, const tn_plan *plan, size_t wanted, uint64_t seed,
                                    tn_sampled_house *use, void *context, tn_error *error)
 {
     tn_house_sample s = {.use = use, .context = context};
-    tn_house_counts all;
-    mpz_init(s.before);
-    tn_house_counts_init(&all);
-    tn_status status = visit_plans(n, plan, add_plan, &all, error);
+    mpz_t all;
+    mpz_inits(s.before, all, NULL);
+    tn_status status = visit_plans(n, plan, add_plan, all, error);
     if (status == TN_OK)
-        status = sample_draw(&s, seed, all.houses, wanted, error);
+        status = sample_draw(&s, seed, all, wanted, error);
     if (status == TN_OK && s.count > 0)
         status = visit_plans(n, plan, use_plan, &s, error);
-    tn_house_counts_clear(&all);
+    mpz_clear(all);
     sample_clear(&s);
     return status;
 }

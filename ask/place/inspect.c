@@ -2,8 +2,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ask/place/drawn.h"
-#include "ask/place/parts.h"
+#include "ask/place/export.h"
+#include "ask/place/place.h"
 #include "ask/session/questions.h"
 #include "driver/place/asked.h"
 

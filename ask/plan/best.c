@@ -1,18 +1,24 @@
-/* best: the best plans, or houses, by measures, in their order. */
+/* best, pareto: the best plans, or houses, by measures in their order, and the best trade-offs of two or three. */
 #include "ask/plan/best.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "ask/session/questions.h"
 #include "driver/open/digits.h"
+#include "driver/plan/library.h"
+#include "runtime/house/rank/rank.h"
 #include "runtime/plan/library/rank.h"
 #include "runtime/plan/measure/best.h"
 #include "runtime/plan/measure/moments.h"
 #include "runtime/plan/measure/named.h"
 
+static tn_status find_best_houses(tn_session *session, const tn_best_request *request, tn_reply *answer);
+
 /* ---- measures */
 
-tn_status tn_wishes_take(tn_session *session, const tn_wish *items, size_t count, uint32_t least, tn_wishes *wishes)
+/* The names, and what is better; TN_INVALID, and said, if there are fewer than `least` or too many. */
+static tn_status wishes_take(tn_session *session, const tn_wish *items, size_t count, uint32_t least, tn_wishes *wishes)
 {
     *wishes = (tn_wishes){0};
     if (count < least || count > TN_WEIGHED_MAX)
@@ -31,7 +37,7 @@ tn_status tn_wishes_of_plans(tn_session *session, const tn_ready_library *ready,
                              uint32_t least, tn_wishes *wishes)
 {
     const tn_module *module = session->opened->module;
-    tn_status status = tn_wishes_take(session, items, count, least, wishes);
+    tn_status status = wishes_take(session, items, count, least, wishes);
     for (uint32_t k = 0; status == TN_OK && k < wishes->count; k++) {
         status = tn_measure_choose(session->opened, wishes->names[k], ready->record, &wishes->measures[k]);
         if (status != TN_OK)
@@ -42,7 +48,8 @@ tn_status tn_wishes_of_plans(tn_session *session, const tn_ready_library *ready,
     return status;
 }
 
-tn_status tn_wishes_note_none(tn_session *session, const tn_wishes *wishes, tn_weighed *weighed, tn_error *error)
+/* Says how many plans are left out since they have no value of one of the measures. */
+static tn_status wishes_note_none(tn_session *session, const tn_wishes *wishes, tn_weighed *weighed, tn_error *error)
 {
     const tn_library *library = tn_weighed_library(weighed);
     const tn_module *module = tn_library_schema(library)->module;
@@ -65,13 +72,14 @@ tn_status tn_wishes_note_none(tn_session *session, const tn_wishes *wishes, tn_w
     return status;
 }
 
-void tn_wishes_room(mpq_t values[TN_WEIGHED_MAX])
+/* Values of measures, in nanometres to their power. */
+static void wishes_room(mpq_t values[TN_WEIGHED_MAX])
 {
     for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
         mpq_init(values[k]);
 }
 
-void tn_wishes_clear(mpq_t values[TN_WEIGHED_MAX])
+static void wishes_clear(mpq_t values[TN_WEIGHED_MAX])
 {
     for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
         mpq_clear(values[k]);
@@ -105,7 +113,7 @@ static tn_status prepare(searching *s, tn_error *error)
     const tn_library *library = s->ready->library;
     tn_status status = tn_weighed_new(library, s->wishes.measures, s->wishes.count, &s->weighed, error);
     if (status == TN_OK)
-        status = tn_wishes_note_none(s->session, &s->wishes, s->weighed, error);
+        status = wishes_note_none(s->session, &s->wishes, s->weighed, error);
     if (status == TN_OK)
         status = tn_best_new(s->weighed, s->wishes.most, &s->best, error);
     if (status == TN_OK)
@@ -119,7 +127,7 @@ static void clear(searching *s)
     tn_ranking_free(s->ranking);
     tn_best_free(s->best);
     tn_weighed_free(s->weighed);
-    tn_wishes_clear(s->values);
+    wishes_clear(s->values);
     free(s->trays);
 }
 
@@ -188,7 +196,7 @@ static tn_status best_plans(tn_session *session, const tn_best_request *request,
         return status;
     tn_found_of of = {.plans = s.ready, .wishes = &s.wishes};
     tn_finds finds = {.session = session, .of = &of, .answer = answer, .lines = request->lines};
-    tn_wishes_room(s.values);
+    wishes_room(s.values);
     status = prepare(&s, &error);
     if (status == TN_OK)
         status = tn_finds_begin(&finds, &error);
@@ -204,5 +212,322 @@ tn_status tn_ask_best(tn_session *session, const tn_best_request *request, tn_re
     if (!request->plan && !tn_session_of_houses(session, &request->subject))
         return best_plans(session, request, answer);
     return request->mirror ? tn_session_refuse(session, NULL, "--mirror is about plans, not about houses")
-                           : tn_find_best_houses(session, request, answer);
+                           : find_best_houses(session, request, answer);
+}
+
+/* ---- the best houses */
+
+static tn_status find_measures(tn_houses_search *s)
+{
+    const tn_module *module = s->n.form.module;
+    tn_error error;
+    for (uint32_t k = 0; k < s->found.count; k++) {
+        uint32_t measure;
+        tn_status status =
+            tn_house_measure_choose(s->n.session->opened, s->found.names[k], s->n.record->form, &measure);
+        if (status != TN_OK)
+            return status;
+        tn_house_measured of = tn_house_measured_of(module, measure);
+        if (tn_house_weights_new(&s->n.form, of, &s->weights[k], &error) != TN_OK)
+            return tn_session_fail(s->n.session, &error);
+        s->found.names[k] = tn_text(module, s->weights[k]->of.name);
+        s->found.units[k] = tn_amount_unit_of(s->n.schema, module->SUM_records[of.sum].power);
+        s->measures.of[k] = s->weights[k];
+        s->measures.most[k] = s->found.most[k];
+    }
+    s->measures.count = s->found.count;
+    return TN_OK;
+}
+
+static tn_status find_values(tn_houses_search *s, const tn_house_asked *asked)
+{
+    tn_session *session = s->n.session;
+    tn_houses_what what = {
+        .measures = s->found.count ? &s->measures : NULL, .aim = asked->aim, .wanted = asked->wanted};
+    tn_error error;
+    if (asked->plan) {
+        what.only = s->plan.trays;
+        what.length = (uint32_t)s->plan.length;
+    }
+    tn_session_begins(session, "looking for the best");
+    tn_status status = tn_houses_of(&s->n.form, s->n.record, s->n.plans, &what, s->n.max_states, &s->houses, &error);
+    tn_session_ends(session);
+    return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
+}
+
+tn_status tn_houses_search_begin(tn_houses_search *s, tn_session *session, const tn_house_asked *asked)
+{
+    *s = (tn_houses_search){.wanted = asked->wanted};
+    mpz_init(s->count);
+    tn_status status = wishes_take(session, asked->by, asked->by_count, asked->by_least, &s->found);
+    if (status == TN_OK)
+        status = tn_numbered_open_on(&s->n, session, asked->subject, asked->plan, &s->plan);
+    if (status == TN_OK)
+        status = find_measures(s);
+    return status == TN_OK ? find_values(s, asked) : status;
+}
+
+void tn_houses_search_end(tn_houses_search *s)
+{
+    tn_houses_free(s->houses);
+    for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
+        tn_house_weights_free(s->weights[k]);
+    free(s->plan.trays);
+    tn_numbered_close(&s->n);
+    mpz_clear(s->count);
+}
+
+/* Begins a search, has `give` make the answer of them. What is wrong is said. */
+static tn_status houses_search_give(tn_session *session, const tn_house_asked *asked,
+                                    tn_status (*give)(tn_houses_search *search, tn_reply *answer), tn_reply *answer)
+{
+    tn_houses_search search;
+    tn_status status = tn_houses_search_begin(&search, session, asked);
+    if (status == TN_OK)
+        status = give(&search, answer);
+    tn_houses_search_end(&search);
+    return status;
+}
+
+void tn_houses_search_value(const tn_houses_search *s, uint32_t k, mpq_t value)
+{
+    mpq_set_si(value, s->values[k], 1);
+    mpq_mul(value, value, s->weights[k]->shown);
+}
+
+/* ---- houses of the values */
+
+/* Whoever gets the houses that were found gets them judged. */
+typedef struct judged {
+    tn_numbered *n;
+    tn_house_each *each;
+    void *context;
+} judged;
+
+static tn_status judge_house(void *context, const tn_house *house, bool *stop, tn_error *error)
+{
+    judged *j = context;
+    tn_status status = tn_numbered_judge(j->n, house, error);
+    return status == TN_OK ? j->each(j->context, house, stop, error) : status;
+}
+
+/* The same of one point. */
+static tn_status houses_search_of_point(tn_houses_search *s, size_t point, tn_house_each *each, void *context,
+                                        tn_error *error)
+{
+    tn_houses_point(s->houses, point, s->values, s->count);
+    judged j = {.n = &s->n, .each = each, .context = context};
+    return tn_houses_point_each(s->houses, point, judge_house, &j, error);
+}
+
+tn_status tn_houses_search_each(tn_houses_search *s, tn_house_each *each, void *context, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && s->given < s->wanted && i < tn_houses_points(s->houses); i++)
+        status = houses_search_of_point(s, i, each, context, error);
+    return status;
+}
+
+/* ---- asked */
+
+typedef struct giving {
+    tn_houses_search *search;
+    tn_finds *finds;
+    mpq_t values[TN_WEIGHED_MAX];
+} giving;
+
+static tn_status give_house(void *context, const tn_house *house, bool *stop, tn_error *error)
+{
+    giving *g = context;
+    tn_house same = *house; /* it is not the taker's */
+    for (uint32_t k = 0; k < g->search->found.count; k++)
+        tn_houses_search_value(g->search, k, g->values[k]);
+    const tn_found_one found = {
+        .trays = house->trays, .length = (uint32_t)house->length, .house = &same, .values = g->values};
+    *stop = ++g->search->given == g->search->wanted;
+    return tn_finds_give(g->finds, &found, error);
+}
+
+static tn_status give(tn_houses_search *search, tn_reply *answer)
+{
+    tn_session *session = search->n.session;
+    tn_error error;
+    tn_found_of of = {.houses = &search->n, .wishes = &search->found};
+    tn_finds finds = {.session = session, .of = &of, .answer = answer};
+    giving g = {.search = search, .finds = &finds};
+    wishes_room(g.values);
+    tn_status status = tn_finds_begin(&finds, &error);
+    if (status == TN_OK && !finds.ended)
+        status = tn_houses_search_each(search, give_house, &g, &error);
+    wishes_clear(g.values);
+    if (status == TN_OK && !finds.ended)
+        tn_numbered_say_few(&search->n, search->plan.trays != NULL, search->given, search->wanted);
+    return tn_finds_end(&finds, status, &error);
+}
+
+/* The best houses that are asked for. */
+static tn_status find_best_houses(tn_session *session, const tn_best_request *request, tn_reply *answer)
+{
+    const tn_house_asked asked = {.subject = &request->subject,
+                                  .plan = request->plan,
+                                  .wanted = request->has_count ? request->count : TN_BEST_DEFAULT,
+                                  .aim = TN_HOUSES_LEAST,
+                                  .by = request->by.items,
+                                  .by_count = request->by.count,
+                                  .by_least = 1};
+    return houses_search_give(session, &asked, give, answer);
+}
+
+/* ---- pareto */
+
+static void free_front(void *made)
+{
+    tn_plan_front *front = made;
+    tn_pareto_clear(&front->front);
+    tn_weighed_free(front->weighed);
+    free(front);
+}
+
+static tn_status name_measures(const tn_wishes *wishes, tn_found_front *front, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (uint32_t k = 0; status == TN_OK && k < wishes->count; k++)
+        status = tn_owneds_add(&front->measures, strdup(wishes->names[k]), error);
+    return status;
+}
+
+/* The values, exact and for people. `values` are in nanometres to their power. */
+static tn_status set_values(const tn_wishes *wishes, mpq_t *values, tn_front_point *point, tn_error *error)
+{
+    tn_status status = tn_exacts_room(&point->values, wishes->count, error);
+    for (uint32_t k = 0; status == TN_OK && k < wishes->count; k++) {
+        mpq_set(point->values.items[k], values[k]);
+        tn_amount_convert(wishes->units[k], point->values.items[k]);
+        status = tn_owneds_add(&point->shown, tn_wish_text(wishes, k, values[k]), error);
+    }
+    return status;
+}
+
+/* ---- plans */
+
+static tn_status set_plan(const tn_plan_front *f, const tn_pareto_point *from, tn_front_point *point, tn_error *error)
+{
+    mpq_t values[TN_WEIGHED_MAX];
+    wishes_room(values);
+    for (uint32_t k = 0; k < f->wishes.count; k++)
+        tn_weighed_value(f->weighed, k, from->values, values[k]);
+    tn_status status = set_values(&f->wishes, values, point, error);
+    wishes_clear(values);
+    point->has_plans = point->has_rank = point->has_plan = true;
+    mpz_set(point->plans, from->plans);
+    if (status == TN_OK && !tn_library_rank(f->ready->library, from->trays, from->length, point->rank))
+        status = tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a plan of the front is not in the library");
+    return status == TN_OK ? tn_found_plan_texts(f->ready->schema, from->trays, from->length, &point->plan, NULL, error)
+                           : status;
+}
+
+static tn_status find_plans(tn_session *session, tn_plan_front *f, tn_error *error)
+{
+    tn_session_begins(session, "looking for the front");
+    tn_status status = tn_weighed_new(f->ready->library, f->wishes.measures, f->wishes.count, &f->weighed, error);
+    if (status == TN_OK)
+        status = wishes_note_none(session, &f->wishes, f->weighed, error);
+    if (status == TN_OK)
+        status = tn_pareto_make(&f->front, f->weighed, f->wishes.most, error);
+    tn_session_ends(session);
+    return status;
+}
+
+static tn_status give_front(tn_session *session, tn_found_front *front, tn_error *error)
+{
+    tn_plan_front *f = front->shown.value;
+    tn_status status = find_plans(session, f, error);
+    if (status == TN_OK)
+        status = name_measures(&f->wishes, front, error);
+    if (status == TN_OK)
+        status = TN_NEW_LIST(front_point, front->points, f->front.count, error);
+    for (size_t i = 0; status == TN_OK && i < f->front.count; i++)
+        status = set_plan(f, &f->front.points[i], &front->points.items[i], error);
+    return status;
+}
+
+static tn_status front_of_plans(tn_session *session, const tn_pareto_request *request, tn_reply *answer)
+{
+    const tn_ready_library *ready;
+    tn_wishes wishes;
+    tn_error error;
+    tn_status status = tn_session_library(session, &request->subject, &ready);
+    if (status == TN_OK)
+        status = tn_wishes_of_plans(session, ready, request->by.items, request->by.count, 2, &wishes);
+    if (status != TN_OK)
+        return status;
+    status = tn_reply_new(&tn_message_found_front, answer, &error);
+    if (status == TN_OK) {
+        tn_found_front *front = answer->value;
+        tn_plan_front *f = calloc(1, sizeof *f);
+        front->shown = (tn_boxed){f, free_front};
+        if (f)
+            *f = (tn_plan_front){.ready = ready, .wishes = wishes};
+        status = f ? give_front(session, front, &error) : tn_fail_memory(&error);
+    }
+    return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
+}
+
+/* ---- houses */
+
+static tn_status take_line(void *context, const tn_house *house, bool *stop, tn_error *error)
+{
+    tn_front_point *point = context;
+    *stop = true;
+    return tn_found_house_texts(house, &point->house, NULL, error);
+}
+
+static tn_status set_house(tn_houses_search *search, size_t i, tn_front_point *point, tn_error *error)
+{
+    mpq_t values[TN_WEIGHED_MAX];
+    tn_status status = houses_search_of_point(search, i, take_line, point, error);
+    if (status != TN_OK)
+        return status;
+    wishes_room(values);
+    for (uint32_t k = 0; k < search->found.count; k++)
+        tn_houses_search_value(search, k, values[k]);
+    point->has_houses = point->has_house = true;
+    mpz_set(point->houses, search->count);
+    status = set_values(&search->found, values, point, error);
+    wishes_clear(values);
+    return status;
+}
+
+static tn_status give_houses(tn_houses_search *search, tn_reply *answer)
+{
+    tn_error error;
+    size_t count = tn_houses_points(search->houses);
+    tn_status status = tn_reply_new(&tn_message_found_front, answer, &error);
+    tn_found_front *front = answer->value;
+    if (status == TN_OK)
+        status = name_measures(&search->found, front, &error);
+    if (status == TN_OK)
+        status = TN_NEW_LIST(front_point, front->points, count, &error);
+    for (size_t i = 0; status == TN_OK && i < count; i++)
+        status = set_house(search, i, &front->points.items[i], &error);
+    return status == TN_OK ? TN_OK : tn_session_fail(search->n.session, &error);
+}
+
+static tn_status front_of_houses(tn_session *session, const tn_pareto_request *request, tn_reply *answer)
+{
+    const tn_house_asked asked = {.subject = &request->subject,
+                                  .plan = request->plan,
+                                  .wanted = UINT64_MAX,
+                                  .aim = TN_HOUSES_FRONT,
+                                  .by = request->by.items,
+                                  .by_count = request->by.count,
+                                  .by_least = 2};
+    return houses_search_give(session, &asked, give_houses, answer);
+}
+
+tn_status tn_ask_pareto(tn_session *session, const tn_pareto_request *request, tn_reply *answer)
+{
+    *answer = (tn_reply){0};
+    bool houses = request->plan || tn_session_of_houses(session, &request->subject);
+    return (houses ? front_of_houses : front_of_plans)(session, request, answer);
 }

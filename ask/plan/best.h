@@ -11,28 +11,9 @@
 #include "runtime/plan/measure/complete.h"
 #include "runtime/plan/measure/pareto.h"
 
-/* The measures of a library that a request goes by. */
-typedef struct tn_wishes {
-    uint32_t count;
-    const char *names[TN_WEIGHED_MAX];
-    bool most[TN_WEIGHED_MAX];
-    tn_amount_unit units[TN_WEIGHED_MAX];
-    uint32_t measures[TN_WEIGHED_MAX]; /* of plans: runtime/plan/measure/named.h */
-} tn_wishes;
-
-/* The names, and what is better; TN_INVALID, and said, if there are fewer than `least` or too many. */
-tn_status tn_wishes_take(tn_session *session, const tn_wish *items, size_t count, uint32_t least, tn_wishes *wishes);
-
 /* The same, found among the measures of the library's plans. */
 tn_status tn_wishes_of_plans(tn_session *session, const tn_ready_library *ready, const tn_wish *items, size_t count,
                              uint32_t least, tn_wishes *wishes);
-
-/* Says how many plans are left out since they have no value of one of the measures. */
-tn_status tn_wishes_note_none(tn_session *session, const tn_wishes *wishes, tn_weighed *weighed, tn_error *error);
-
-/* Values of measures, in nanometres to their power. */
-void tn_wishes_room(mpq_t values[TN_WEIGHED_MAX]);
-void tn_wishes_clear(mpq_t values[TN_WEIGHED_MAX]);
 
 /* A value for people (malloc); NULL: out of memory. */
 char *tn_wish_text(const tn_wishes *wishes, uint32_t k, const mpq_t value);
@@ -95,20 +76,12 @@ typedef struct tn_house_asked {
 tn_status tn_houses_search_begin(tn_houses_search *search, tn_session *session, const tn_house_asked *asked);
 void tn_houses_search_end(tn_houses_search *search);
 
-/* Begins a search, has `give` make the answer of them. What is wrong is said. */
-tn_status tn_houses_search_give(tn_session *session, const tn_house_asked *asked,
-                                tn_status (*give)(tn_houses_search *search, tn_reply *answer), tn_reply *answer);
-
 /* The value of measure k at the point at hand, in nanometres to its power. */
 void tn_houses_search_value(const tn_houses_search *search, uint32_t k, mpq_t value);
 
 /* Calls `each` with the best houses, by value and then by rank, until it stops; of a point with those that it has. It
  * is `each` who counts them in search->given. */
 tn_status tn_houses_search_each(tn_houses_search *search, tn_house_each *each, void *context, tn_error *error);
-
-/* The same of one point. */
-tn_status tn_houses_search_of_point(tn_houses_search *search, size_t point, tn_house_each *each, void *context,
-                                    tn_error *error);
 
 /* A choice's place in found.counts and found.best. */
 static inline size_t tn_open_choice_at(const tn_open_choices *c, uint32_t tray, uint32_t field, uint32_t value)
@@ -123,8 +96,5 @@ void tn_open_best_name(const tn_open_choices *choices, char *text, size_t size);
 
 /* Draws them. */
 tn_status tn_open_choices_draw(const tn_open_choices *choices, tn_picture *to, tn_error *error);
-
-/* The best houses that are asked for. */
-tn_status tn_find_best_houses(tn_session *session, const tn_best_request *request, tn_reply *answer);
 
 #endif

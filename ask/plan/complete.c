@@ -6,7 +6,7 @@
 #include "ask/session/made.h"
 #include "ask/session/questions.h"
 #include "driver/open/digits.h"
-#include "driver/plan/clauses.h"
+#include "driver/plan/library.h"
 #include "runtime/plan/measure/bins.h"
 #include "runtime/plan/picture/draw_open.h"
 #include "runtime/plan/text/text.h"

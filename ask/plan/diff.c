@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "ask/house/compared.h"
+#include "ask/plan/draw.h"
 #include "ask/plan/found.h"
-#include "ask/plan/sheet.h"
 #include "ask/plan/weights.h"
 #include "ask/session/made.h"
 #include "ask/session/questions.h"

@@ -1,21 +1,28 @@
-/* What drawing is made of: each kind of thing that is drawn has a file of its own. */
+/* Pictures of plans, rules and houses; and plans gathered for a picture before any is drawn, since all share one scale.
+ */
 #ifndef TARTAN_ASK_PLAN_DRAW_H
 #define TARTAN_ASK_PLAN_DRAW_H
 
 #include "ask/form/draw.h"
 #include "ask/session/requests.h"
+#include "driver/open/open.h"
+#include "runtime/plan/picture/draw.h"
 
-/* Does all that is asked for go together, and is it about the file? Otherwise TN_INVALID, which is said. For whoever has
- * plans to read first. */
+/* ---- plans gathered for a picture, before any is drawn, since all share one scale */
+
+typedef struct tn_plan_sheet {
+    tn_drawn_plan *plans; /* trays, numbers and captions owned */
+    size_t count, room;
+} tn_plan_sheet;
+
+/* Adds a plan, whose trays are copied. Takes over `number`, which NULL says there was no memory for, and `caption`,
+ * which may be NULL; borrows `heading`. */
+tn_status tn_sheet_add(tn_plan_sheet *sheet, const tn_tray *trays, size_t length, char *number, const char *heading,
+                       char *caption, tn_error *error);
+void tn_sheet_clear(tn_plan_sheet *sheet);
+
+/* Does all that is asked for go together, and is it about the file? Otherwise TN_INVALID, which is said. For whoever
+ * has plans to read first. */
 tn_status tn_draw_check(tn_session *session, const tn_draw_request *request);
-
-/* Plans that the request has, or that the library is asked for: its best ones, or a sample. */
-tn_status tn_draw_plans(tn_session *session, const tn_draw_request *request, tn_drawn_picture *made);
-
-/* Rules in one picture, which are about the same trays. */
-tn_status tn_draw_rules(tn_session *session, const tn_draw_request *request, tn_drawn_picture *made);
-
-/* Houses in space: a sample, the best, or the first of each of the best trade-offs. */
-tn_status tn_draw_houses(tn_session *session, const tn_draw_request *request, tn_drawn_picture *made);
 
 #endif

@@ -6,7 +6,7 @@
 
 #include "ask/place/export.h"
 #include "ask/session/questions.h"
-#include "driver/open/again.h"
+#include "driver/open/open.h"
 #include "driver/plan/library.h"
 #include "runtime/plan/match/lower.h"
 #include "runtime/plan/match/parts.h"

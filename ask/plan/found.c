@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "ask/house/numbered.h"
-#include "ask/plan/best.h"
 
 tn_status tn_finds_begin(tn_finds *finds, tn_error *error)
 {

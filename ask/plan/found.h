@@ -4,9 +4,18 @@
 
 #include "ask/session/session.h"
 #include "runtime/house/house.h"
+#include "runtime/plan/measure/amount.h"
+#include "runtime/plan/measure/weighed.h"
 
 struct tn_numbered;
-struct tn_wishes;
+/* The measures of a library that a request goes by. */
+typedef struct tn_wishes {
+    uint32_t count;
+    const char *names[TN_WEIGHED_MAX];
+    bool most[TN_WEIGHED_MAX];
+    tn_amount_unit units[TN_WEIGHED_MAX];
+    uint32_t measures[TN_WEIGHED_MAX]; /* of plans: runtime/plan/measure/named.h */
+} tn_wishes;
 
 /* A plan or a house. All is borrowed until the next is found, but a house may be taken: then an empty one is left. */
 typedef struct tn_found_one {
@@ -22,11 +31,11 @@ typedef struct tn_found_one {
 typedef struct tn_found_of {
     const tn_ready_library *plans;
     const struct tn_numbered *houses;
-    const struct tn_wishes *wishes; /* the measures that were asked for, or NULL */
-    mpz_ptr from;                   /* of an enumeration: the first rank, which `begins` may raise; or NULL */
-    mpz_srcptr to;                  /* one past its last rank; or NULL */
-    uint64_t before;                /* how many of its limit `begins` has already */
-    mpq_srcptr weight;              /* of a sample that is drawn by weights: of all plans; or NULL */
+    const tn_wishes *wishes; /* the measures that were asked for, or NULL */
+    mpz_ptr from;            /* of an enumeration: the first rank, which `begins` may raise; or NULL */
+    mpz_srcptr to;           /* one past its last rank; or NULL */
+    uint64_t before;         /* how many of its limit `begins` has already */
+    mpq_srcptr weight;       /* of a sample that is drawn by weights: of all plans; or NULL */
 } tn_found_of;
 
 /* Whoever takes what is found (tn_session.taker). Each says whether the question goes on; if it does not, it ends well,

@@ -6,10 +6,8 @@
 
 #include "ask/plan/found.h"
 #include "ask/session/questions.h"
-#include "driver/plan/clauses.h"
-#include "runtime/plan/match/vm.h"
-
 #include "driver/plan/library.h"
+#include "runtime/plan/match/vm.h"
 
 /* All that are wrong are said. */
 static tn_status choose_asked(tn_session *session, const tn_texts *asked, tn_chosen_rules *chosen)

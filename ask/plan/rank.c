@@ -5,7 +5,8 @@
 #include "ask/house/numbered.h"
 #include "ask/plan/found.h"
 #include "ask/session/questions.h"
-#include "driver/plan/clauses.h"
+#include "ask/session/spelled.h"
+#include "driver/plan/library.h"
 #include "runtime/plan/text/text.h"
 
 /* ---- the number of a plan */

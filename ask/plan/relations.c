@@ -5,7 +5,7 @@
 #include "ask/house/numbered.h"
 #include "ask/session/questions.h"
 #include "ask/session/session.h"
-#include "driver/open/findings.h"
+#include "driver/open/open.h"
 #include "driver/plan/analysis.h"
 #include "runtime/base/crew.h"
 #include "runtime/base/integers.h"
@@ -90,9 +90,8 @@ static tn_status count_kept(const relating *r, tn_house_clause_record *clauses, 
     record.clause_first = 0;
     record.clause_count = count;
     tn_numbered some;
-    tn_status status = tn_numbered_other(&r->n, &module, &record, r->n.plans, &some, error);
-    if (status == TN_OK)
-        status = count_houses(&some, houses, error);
+    tn_numbered_other(&r->n, &module, &record, r->n.plans, &some);
+    tn_status status = count_houses(&some, houses, error);
     if (status == TN_OK && example && mpz_sgn(houses) > 0)
         status = write_first(&some, example, error);
     tn_numbered_other_close(&some);

@@ -6,7 +6,7 @@
 
 #include "ask/rule/rule.h"
 #include "ask/session/questions.h"
-#include "compiler/common/text_lines.h"
+#include "compiler/common/source.h"
 #include "driver/rule/tray_fields.h"
 #include "runtime/base/nearest.h"
 

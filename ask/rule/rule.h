@@ -26,7 +26,4 @@ void tn_asked_rule_clear(tn_asked_rule *asked);
 /* The byte at a place in UTF-16 units from the text's beginning. */
 size_t tn_text_byte(const tn_rule_text *text, uint64_t utf16);
 
-/* A name in the rule at a part: "rule", "let", "param", "bound". */
-const char *tn_asked_rule_means(const tn_session *session, const tn_asked_rule *asked, uint32_t part, const char *name);
-
 #endif

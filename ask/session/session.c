@@ -6,9 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ask/session/spelled.h"
 #include "driver/house/judge.h"
-#include "driver/open/again.h"
+#include "driver/open/open.h"
 #include "runtime/base/crew.h"
 #include "runtime/plan/match/vm.h"
 
@@ -119,19 +118,6 @@ void tn_session_shows(const tn_session *session)
 {
     if (session->listener.shows)
         session->listener.shows(session->listener.context);
-}
-
-tn_status tn_session_plan(tn_session *session, const tn_schema *schema, const char *text, size_t max_length,
-                          tn_plan *plan)
-{
-    tn_spelled spelled;
-    tn_status status = tn_spelled_read(session, schema, text, "PLAN", max_length, false, &spelled);
-    if (status == TN_OK)
-        status = tn_spelled_settle(session, schema, text, "PLAN", &spelled);
-    *plan = spelled.plan;
-    spelled.plan = (tn_plan){0};
-    tn_spelled_clear(&spelled);
-    return status;
 }
 
 tn_status tn_session_plan_line(tn_session *session, const tn_schema *schema, const char *text, size_t max_length,

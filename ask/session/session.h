@@ -45,7 +45,7 @@ typedef struct tn_session {
     /* Takes the plans or houses that are found (found.h); NULL: they are put into the answer. */
     const struct tn_taker *taker;
 
-    /* Takes the buildings of a kit that are found (ask/place/buildings.h); NULL: they are put into the answer. */
+    /* Takes the buildings of a kit that are found (ask/place/kit.h); NULL: they are put into the answer. */
     const struct tn_building_taker *buildings;
 
     /* Takes the files that are made (made.h); NULL: they are put into the answer, */
@@ -99,11 +99,6 @@ tn_status tn_session_generated(tn_session *session, const tn_library_asked *aske
 
 /* Is the library that is asked about by name one of houses? */
 bool tn_session_of_houses(const tn_session *session, const tn_library_asked *asked);
-
-/* Reads the plan that a request is about, in any spelling (spelled.h). The caller frees its trays, also after a
- * failure, which is said. */
-tn_status tn_session_plan(tn_session *session, const tn_schema *schema, const char *text, size_t max_length,
-                          tn_plan *plan);
 
 /* The same of one of many plans, as files of plans have them: a plan line or JSON. */
 tn_status tn_session_plan_line(tn_session *session, const tn_schema *schema, const char *text, size_t max_length,

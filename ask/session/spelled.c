@@ -538,3 +538,16 @@ tn_status tn_spelled_settle(tn_session *session, const tn_schema *schema, const 
     spelled->one = status == TN_OK;
     return status;
 }
+
+tn_status tn_session_plan(tn_session *session, const tn_schema *schema, const char *text, size_t max_length,
+                          tn_plan *plan)
+{
+    tn_spelled spelled;
+    tn_status status = tn_spelled_read(session, schema, text, "PLAN", max_length, false, &spelled);
+    if (status == TN_OK)
+        status = tn_spelled_settle(session, schema, text, "PLAN", &spelled);
+    *plan = spelled.plan;
+    spelled.plan = (tn_plan){0};
+    tn_spelled_clear(&spelled);
+    return status;
+}

@@ -40,4 +40,9 @@ void tn_spelled_clear(tn_spelled *spelled);
 tn_status tn_spelled_settle(tn_session *session, const tn_schema *schema, const char *text, const char *name,
                             tn_spelled *spelled);
 
+/* Reads the plan that a request is about, in any spelling (spelled.h). The caller frees its trays, also after a
+ * failure, which is said. */
+tn_status tn_session_plan(tn_session *session, const tn_schema *schema, const char *text, size_t max_length,
+                          tn_plan *plan);
+
 #endif

@@ -3,11 +3,10 @@
 #include <string.h>
 
 #include "ask/session/questions.h"
-#include "ask/source/place.h"
+#include "ask/source/check.h"
 #include "compiler/common/lexical.h"
-#include "compiler/common/listing.h"
-#include "compiler/common/number_ranges.h"
-#include "compiler/notation.h"
+#include "compiler/common/token.h"
+#include "compiler/compile.h"
 #include "compiler/plan/syntax/program.h"
 
 static char *copy(const char *text, tn_span span)

@@ -1,4 +1,4 @@
-/* The elementary functions of version 1 of the arithmetic; see runtime/numeric/numeric.h for what they compute. */
+/* The elementary functions of version 1 of the arithmetic; see runtime/math/elementary.h for what they compute. */
 #ifndef TARTAN_BENCH_BEFORE_NUMERIC_H
 #define TARTAN_BENCH_BEFORE_NUMERIC_H
 

@@ -4,7 +4,7 @@
 #include <ctype.h>
 #include <string.h>
 
-#include "cli/common/option_rows.h"
+#include "cli/common/options.h"
 
 /* ---- completion for bash */
 
@@ -15,11 +15,11 @@ static void write_spellings(const tn_option *option, const char *before, const c
         fprintf(out, "%s%s-%c", between, before, option->letter);
 }
 
-static void write_options(FILE *out)
+static void write_options(const tn_commands *commands, FILE *out)
 {
     fputs("\n_tartan_options() {\n    case $1 in\n", out);
-    for (size_t i = 0; i < tn_commands_count; i++) {
-        const tn_command *command = tn_commands[i];
+    for (size_t i = 0; i < commands->count; i++) {
+        const tn_command *command = commands->items[i];
         fprintf(out, "    %s) echo '", command->name);
         for (size_t j = 0; j < tn_option_total(command); j++) {
             fputs(j ? " " : "", out);
@@ -47,27 +47,27 @@ static void write_bash_argument(const tn_command *command, const tn_option *opti
     fputs("' ;;\n", out);
 }
 
-static void write_arguments(FILE *out)
+static void write_arguments(const tn_commands *commands, FILE *out)
 {
     fputs("\n# What follows an option: words, /files, /free for anything; nothing after a flag.\n"
           "_tartan_argument() {\n    case $1/$2 in\n",
           out);
-    for (size_t i = 0; i < tn_commands_count; i++)
-        for (size_t j = 0; j < tn_option_total(tn_commands[i]); j++)
-            write_bash_argument(tn_commands[i], tn_option_at(tn_commands[i], j), out);
+    for (size_t i = 0; i < commands->count; i++)
+        for (size_t j = 0; j < tn_option_total(commands->items[i]); j++)
+            write_bash_argument(commands->items[i], tn_option_at(commands->items[i], j), out);
     fputs("    esac\n}\n", out);
 }
 
-static void write_bash_operands(FILE *out)
+static void write_bash_operands(const tn_commands *commands, FILE *out)
 {
     fputs("\n# The words that a command's first operand can be, where it is not a file.\n"
           "_tartan_operand() {\n    case $1 in\n",
           out);
-    for (size_t i = 0; i < tn_commands_count; i++) {
-        if (!tn_operand_words(tn_commands[i], NULL, NULL))
+    for (size_t i = 0; i < commands->count; i++) {
+        if (!tn_operand_words(commands->items[i], NULL, NULL))
             continue;
-        fprintf(out, "    %s) echo '", tn_commands[i]->name);
-        tn_operand_words(tn_commands[i], " ", out);
+        fprintf(out, "    %s) echo '", commands->items[i]->name);
+        tn_operand_words(commands->items[i], " ", out);
         fputs("' ;;\n", out);
     }
     fputs("    help) echo \"$_tartan_commands\" ;;\n    esac\n}\n", out);
@@ -120,15 +120,15 @@ static const char rest[] =
     "}\n"
     "complete -F _tartan tartan\n";
 
-void tn_completion_bash(FILE *out)
+void tn_completion_bash(const tn_commands *commands, FILE *out)
 {
     fputs("# Completion of tartan for bash, written by `tartan help --completion bash`.\n_tartan_commands='", out);
-    for (size_t i = 0; i < tn_commands_count; i++)
-        fprintf(out, "%s%s", i ? " " : "", tn_commands[i]->name);
+    for (size_t i = 0; i < commands->count; i++)
+        fprintf(out, "%s%s", i ? " " : "", commands->items[i]->name);
     fputs("'\n", out);
-    write_options(out);
-    write_arguments(out);
-    write_bash_operands(out);
+    write_options(commands, out);
+    write_arguments(commands, out);
+    write_bash_operands(commands, out);
     fputs(rest, out);
 }
 
@@ -181,7 +181,7 @@ static void write_fish_command(const tn_command *command, FILE *out)
         write_option(command, tn_option_at(command, i), out);
 }
 
-void tn_completion_fish(FILE *out)
+void tn_completion_fish(const tn_commands *commands, FILE *out)
 {
     fputs("# Completion of tartan for fish, written by `tartan help --completion fish`.\n"
           "function __tartan_first\n"
@@ -198,8 +198,8 @@ void tn_completion_fish(FILE *out)
           "complete -c tartan -n __tartan_first -l version -d 'print the version'\n"
           "complete -c tartan -n __tartan_first -l help -s h -d 'list the commands'\n",
           out);
-    for (size_t i = 0; i < tn_commands_count; i++)
-        write_fish_command(tn_commands[i], out);
+    for (size_t i = 0; i < commands->count; i++)
+        write_fish_command(commands->items[i], out);
 }
 
 /* ---- completion for zsh */
@@ -264,27 +264,27 @@ static void write_zsh_command(const tn_command *command, FILE *out)
     fputs(" \\\n        '*:file:_files'\n      ;;\n", out);
 }
 
-static void write_zsh_operands(FILE *out)
+static void write_zsh_operands(const tn_commands *commands, FILE *out)
 {
     fputs("_tartan_operand() {\n  local -a known\n  case $command in\n", out);
-    for (size_t i = 0; i < tn_commands_count; i++) {
-        if (!tn_operand_words(tn_commands[i], NULL, NULL))
+    for (size_t i = 0; i < commands->count; i++) {
+        if (!tn_operand_words(commands->items[i], NULL, NULL))
             continue;
-        fprintf(out, "    %s) known=(", tn_commands[i]->name);
-        tn_operand_words(tn_commands[i], " ", out);
+        fprintf(out, "    %s) known=(", commands->items[i]->name);
+        tn_operand_words(commands->items[i], " ", out);
         fputs(") ;;\n", out);
     }
     fputs("  esac\n  if (( $#known )); then\n    compadd -a known\n  else\n    _files\n  fi\n}\n\n", out);
 }
 
-void tn_completion_zsh(FILE *out)
+void tn_completion_zsh(const tn_commands *commands, FILE *out)
 {
     fputs("#compdef tartan\n# Completion of tartan for zsh, written by `tartan help --completion zsh`.\n\n", out);
-    write_zsh_operands(out);
+    write_zsh_operands(commands, out);
     fputs("_tartan() {\n  local -a commands\n  commands=(\n", out);
-    for (size_t i = 0; i < tn_commands_count; i++) {
-        fprintf(out, "    '%s:", tn_commands[i]->name);
-        write_zsh_quoted(tn_commands[i]->summary, strlen(tn_commands[i]->summary), out);
+    for (size_t i = 0; i < commands->count; i++) {
+        fprintf(out, "    '%s:", commands->items[i]->name);
+        write_zsh_quoted(commands->items[i]->summary, strlen(commands->items[i]->summary), out);
         fputs("'\n", out);
     }
     fputs("    'help:explain a command'\n  )\n"
@@ -299,8 +299,8 @@ void tn_completion_zsh(FILE *out)
           "  case $command in\n"
           "    help) (( CURRENT == 2 )) && _describe -t commands command commands ;;\n",
           out);
-    for (size_t i = 0; i < tn_commands_count; i++)
-        write_zsh_command(tn_commands[i], out);
+    for (size_t i = 0; i < commands->count; i++)
+        write_zsh_command(commands->items[i], out);
     /* Autoloaded, the file is the function's body; sourced, it registers the function. */
     fputs("  esac\n}\n\n"
           "if [[ $funcstack[1] == _tartan ]]; then\n  _tartan \"$@\"\nelse\n  compdef _tartan tartan\nfi\n",

@@ -7,15 +7,15 @@
 
 typedef struct tn_shell {
     const char *name;
-    void (*write)(FILE *out);
+    void (*write)(const tn_commands *commands, FILE *out);
 } tn_shell;
 
 /* The shell named so, or NULL. */
 const tn_shell *tn_shell_find(const char *name);
 
-void tn_completion_bash(FILE *out);
-void tn_completion_zsh(FILE *out);
-void tn_completion_fish(FILE *out);
+void tn_completion_bash(const tn_commands *commands, FILE *out);
+void tn_completion_zsh(const tn_commands *commands, FILE *out);
+void tn_completion_fish(const tn_commands *commands, FILE *out);
 
 /* What can follow an option. */
 typedef enum tn_completes {

@@ -1,7 +1,125 @@
-/* Prints help: of a command, and the list of all. */
+/* Prints help and writes manual pages: of a command, and of all. */
 #include "cli/common/help.h"
 
 #include <string.h>
+
+#include "compiler/compile.h"
+
+/* ---- manual pages */
+
+/* Writes text so that roff takes none of it for its own: backslashes, minus signs, and dots or quotes that start a
+ * line. */
+static void write_text(const char *text, size_t size, FILE *out)
+{
+    for (size_t i = 0; i < size; i++) {
+        bool starts_line = i == 0 || text[i - 1] == '\n';
+        if (starts_line && (text[i] == '.' || text[i] == '\''))
+            fputs("\\&", out);
+        if (text[i] == '\\')
+            fputs("\\e", out);
+        else if (text[i] == '-')
+            fputs("\\-", out);
+        else
+            fputc(text[i], out);
+    }
+}
+
+static void write_all(const char *text, FILE *out)
+{
+    write_text(text, strlen(text), out);
+}
+
+/* Each line of `text` with a macro or words before it. */
+static void write_manual_lines(const char *before, const char *text, const char *after, FILE *out)
+{
+    do {
+        size_t size = strcspn(text, "\n");
+        fputs(before, out);
+        write_text(text, size, out);
+        fputs(after, out);
+        text += size + (text[size] == '\n');
+    } while (*text);
+}
+
+static void write_head(const char *page, const char *name, const char *summary, FILE *out)
+{
+    fprintf(out, ".TH %s 1 \"\" \"tartan " TARTAN_VERSION "\"\n.SH NAME\n", page);
+    write_all(name, out);
+    fputs(" \\- ", out);
+    write_all(summary, out);
+    fputs("\n.SH SYNOPSIS\n", out);
+}
+
+static void write_manual_option(const tn_option *option, FILE *out)
+{
+    fputs(".TP\n", out);
+    if (option->letter)
+        fprintf(out, "\\fB\\-%c\\fR, ", option->letter);
+    fputs("\\fB\\-\\-", out);
+    write_all(option->name, out);
+    fputs("\\fR", out);
+    if (option->argument)
+        fprintf(out, " \\fI%s\\fR", option->argument);
+    fputc('\n', out);
+    write_all(option->help, out);
+    fputc('\n', out);
+}
+
+/* What is to be read beside a page: tartan(1) where it is not that one, and the notations. */
+static void write_see_also(bool overview, FILE *out)
+{
+    fputs(".SH SEE ALSO\n", out);
+    if (!overview)
+        fputs(".BR tartan (1),\n", out);
+    for (size_t i = 0; i < tn_notation_count; i++)
+        if (tn_notations[i].manual[0])
+            fprintf(out, ".BR tartan\\-%s (5),\n", tn_notations[i].manual);
+    fputs(".BR tartan\\-house (5),\n", out); /* the part of .plan files that is about houses */
+    fputs(".BR tartan\\-plans (5)\n", out);  /* of files that are no rules */
+}
+
+void tn_manual_overview(const tn_commands *commands, FILE *out)
+{
+    write_head("TARTAN", "tartan", "rules for plans, compiled and run", out);
+    fputs(".B tartan\n.I COMMAND\n[options] \\fIFILE\\fR...\n.SH COMMANDS\n", out);
+    for (size_t i = 0; i < commands->count; i++) {
+        fprintf(out, ".TP\n\\fBtartan\\-%s\\fR(1)\n", commands->items[i]->name);
+        write_all(commands->items[i]->summary, out);
+        fputc('\n', out);
+    }
+    fputs(".SH ENVIRONMENT\n.TP\n.B TARTAN_PATH\nfolders, separated by colons, where\n.B use \\(dqname\\(dq\nlooks "
+          "before the "
+          "installed rule files\n.TP\n.B NO_COLOR\nno colours, where it is not empty\n.SH EXIT STATUS\n0 done; 1 the "
+          "rules or the input "
+          "are wrong, or a test failed; 2 wrong usage, or a part that this build lacks; 3 a file could not be read or "
+          "written; 4 a limit was reached; "
+          "70 an internal "
+          "error; 130 interrupted.\n",
+          out);
+    write_see_also(true, out);
+}
+
+void tn_manual_command(const tn_command *command, FILE *out)
+{
+    char page[64], before[96];
+    snprintf(page, sizeof page, "tartan-%s", command->name);
+    write_head(page, page, command->summary, out);
+    snprintf(before, sizeof before, ".B tartan %s\n", command->name);
+    write_manual_lines(before, command->usage, "\n.br\n", out);
+    fputs(".SH DESCRIPTION\n", out);
+    write_manual_lines("", command->description, "\n.PP\n", out);
+    fputs(".SH OPTIONS\n", out);
+    for (size_t i = 0; i < command->option_count; i++)
+        write_manual_option(&command->options[i], out);
+    for (size_t i = 0; i < tn_common_option_count; i++)
+        write_manual_option(&tn_common_options[i], out);
+    fputs(".SH EXAMPLE\n.nf\n", out);
+    write_all(command->example, out);
+    fputs("\n.fi\n", out);
+    write_see_also(false, out);
+}
+
+/* ---- help */
 
 enum { WIDTH = 80, OPTION_INDENT = 26 };
 
@@ -61,13 +179,13 @@ static void write_lines(const char *before, const char *text, FILE *out)
     } while (*text);
 }
 
-void tn_help_overview(FILE *out)
+void tn_help_overview(const tn_commands *commands, FILE *out)
 {
     fputs("tartan: rules for plans, compiled and run\n\nUsage:\n  tartan COMMAND [options] FILE...\n  tartan help "
           "COMMAND\n  tartan --version\n\nCommands:\n",
           out);
-    for (size_t i = 0; i < tn_commands_count; i++)
-        fprintf(out, "  %-14s%s\n", tn_commands[i]->name, tn_commands[i]->summary);
+    for (size_t i = 0; i < commands->count; i++)
+        fprintf(out, "  %-14s%s\n", commands->items[i]->name, commands->items[i]->summary);
     fputs("\nA file of the standard library is named without folder and extension: lahave, square, genr8.\n"
           "\nExit codes: 0 done; 1 the rules or the input are wrong, or a test failed; 2 wrong usage;\n"
           "3 a file could not be read or written; 4 a limit was reached; 70 an internal error; 130 interrupted.\n",

@@ -8,7 +8,25 @@
 #ifndef TARTAN_CLI_COMMON_INTERRUPT_H
 #define TARTAN_CLI_COMMON_INTERRUPT_H
 
+#include "cli/common/options.h"
 #include "runtime/base/watch.h"
+
+/* The limit of memory that every command has (--memory-limit; by default half of what is free when it starts).
+ *
+ * A thread measures what the process holds. Past the limit it stops the command's work as an interrupt would, so that
+ * what was finished stays, and the job reports E0841. A command that goes on to take much more is ended from without.
+ */
+
+/* From now on the command's memory is limited: work that asks the watch of interrupts, and what does not. */
+void tn_memory_guard_start(const tn_command *command, const tn_settings *settings);
+
+/* Was the limit passed? */
+bool tn_memory_guard_full(void);
+
+/* The sentence about that, and what to do. */
+void tn_memory_guard_describe(const tn_command *command, tn_error *error);
+
+/* ---- signals */
 
 /* From now on, signals are answered so. `json`: the last words are a diagnostic in JSON. */
 void tn_interrupt_watch(bool json);
@@ -29,9 +47,6 @@ tn_watch *tn_interrupt_waiting(void);
 
 /* What is said where the command is ended from without: what was written, and what is missing. */
 void tn_interrupt_last_words(const char *format, ...) __attribute__((format(printf, 1, 2)));
-
-/* Ends the program now, from whichever thread: writes the text, and for people the last words behind it. */
-_Noreturn void tn_interrupt_end(const char *text, size_t size, int exit_code);
 
 /* Only what is finished is being put in place now, or nothing is lost by ending: the clock is stopped. */
 void tn_interrupt_answered(void);

@@ -5,13 +5,240 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include "ask/session/questions.h"
 #include "cli/common/interrupt.h"
-#include "cli/common/memory_guard.h"
+#include "runtime/base/array.h"
+#include "runtime/base/watch.h"
 #include "runtime/ranks/ranks.h"
 
-int tn_exit_code(tn_status status)
+/* ---- --watch: a command is run again whenever a file that it has read changes */
+
+typedef struct tn_file_seen {
+    char *path;
+    bool there;
+    ino_t number;
+    off_t size;
+    struct timespec changed;
+} tn_file_seen;
+
+static tn_file_seen look(const char *path)
+{
+    struct stat known;
+    if (stat(path, &known) != 0)
+        return (tn_file_seen){0};
+    return (tn_file_seen){.there = true, .number = known.st_ino, .size = known.st_size, .changed = known.st_mtim};
+}
+
+static int compare_times(struct timespec a, struct timespec b)
+{
+    if (a.tv_sec != b.tv_sec)
+        return a.tv_sec < b.tv_sec ? -1 : 1;
+    return a.tv_nsec < b.tv_nsec ? -1 : a.tv_nsec > b.tv_nsec;
+}
+
+static bool same(const tn_file_seen *a, const tn_file_seen *b)
+{
+    return a->there == b->there && a->number == b->number && a->size == b->size &&
+           compare_times(a->changed, b->changed) == 0;
+}
+
+static void files_read_clear(tn_files_read *read)
+{
+    for (size_t i = 0; i < read->count; i++)
+        free(read->files[i].path);
+    free(read->files);
+    *read = (tn_files_read){0};
+}
+
+/* Does nothing where it is there already, is no file, or memory is out. */
+static void files_read_add(tn_files_read *read, const char *path)
+{
+    for (size_t i = 0; i < read->count; i++)
+        if (strcmp(read->files[i].path, path) == 0)
+            return;
+    tn_file_seen seen = look(path);
+    if (!seen.there)
+        return;
+    if (!tn_array_reserve(&read->files, &read->capacity, read->count, 1, sizeof *read->files))
+        return;
+    seen.path = strdup(path);
+    if (seen.path)
+        read->files[read->count++] = seen;
+}
+
+/* One that is away for a moment, while another is put in its place, has not changed yet. */
+static const char *changed(const tn_files_read *read)
+{
+    for (size_t i = 0; i < read->count; i++) {
+        tn_file_seen now = look(read->files[i].path);
+        if (now.there && !same(&now, &read->files[i]))
+            return read->files[i].path;
+    }
+    return NULL;
+}
+
+/* Changed since the run began? What it has read may be of two files then. */
+static const char *changed_since(const tn_files_read *read, struct timespec begin)
+{
+    for (size_t i = 0; i < read->count; i++)
+        if (compare_times(read->files[i].changed, begin) >= 0)
+            return read->files[i].path;
+    return NULL;
+}
+
+static void say_watching(const tn_settings *settings, const char *format, ...) __attribute__((format(printf, 2, 3)));
+static void say_watching(const tn_settings *settings, const char *format, ...)
+{
+    char text[400];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    tn_job job;
+    tn_job_begin(&job, settings);
+    tn_job_note(&job, "%s", text);
+    tn_job_end(&job);
+}
+
+/* The file that changed; NULL: interrupted. */
+static const char *wait_for_change(const tn_files_read *read)
+{
+    const struct timespec pause = {0, 200 * 1000 * 1000};
+    const char *path = NULL;
+    while (!path && !tn_interrupted()) {
+        nanosleep(&pause, NULL);
+        path = changed(read);
+    }
+    return tn_interrupted() ? NULL : path;
+}
+
+/* Of standard input there is nothing to watch. */
+static int refuse_standard_input(const tn_settings *settings)
+{
+    tn_job job;
+    tn_job_begin(&job, settings);
+    tn_job_usage(&job, "--watch is about files, and standard input is none");
+    return tn_job_end(&job);
+}
+
+int tn_watch_files(const tn_settings *settings, int (*once)(const tn_settings *settings, tn_files_read *read))
+{
+    tn_files_read read = {0};
+    for (size_t i = 0; i < settings->operands.count; i++)
+        if (strcmp(settings->operands.items[i], "-") == 0)
+            return refuse_standard_input(settings);
+    for (;;) {
+        struct timespec begin;
+        clock_gettime(CLOCK_REALTIME, &begin);
+        double start = tn_seconds();
+        int exit_code = once(settings, &read);
+        double seconds = tn_seconds() - start;
+        fflush(stdout);
+        for (size_t i = 0; i < settings->operands.count; i++)
+            files_read_add(&read, settings->operands.items[i]);
+        const char *path = changed_since(&read, begin);
+        if (!path && !tn_interrupted() && read.count > 0) {
+            say_watching(settings, "%.2f s; waiting for a change of %zu file%s; Ctrl-C ends", seconds, read.count,
+                         read.count == 1 ? "" : "s");
+            path = wait_for_change(&read);
+        }
+        if (!path) {
+            tn_interrupt_answered();
+            files_read_clear(&read);
+            return exit_code;
+        }
+        say_watching(settings, "%.300s has changed", path);
+        files_read_clear(&read);
+    }
+}
+
+/* ---- files that a question makes */
+
+static tn_status path_in_folder(tn_made_outputs *o, const char *name, tn_error *error)
+{
+    const char *folder = o->paths[0];
+    const char *between = folder[strlen(folder) - 1] == '/' ? "" : "/";
+    tn_status status = o->next == 0 ? tn_folder_make(folder, error) : TN_OK;
+    if (status == TN_OK && asprintf(&o->in_folder, "%s%s%s", folder, between, name ? name : "index.html") < 0) {
+        o->in_folder = NULL;
+        status = tn_fail_memory(error);
+    }
+    return status;
+}
+
+static tn_status opens(void *context, const char *name, FILE **stream, tn_error *error)
+{
+    tn_made_outputs *o = context;
+    if (!o->folder && o->next == o->count)
+        return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "there are more files than names for them");
+    const char *made = o->folders ? o->folders[o->next] : NULL;
+    tn_status status = o->folder ? path_in_folder(o, name, error) : made ? tn_folder_make(made, error) : TN_OK;
+    if (status == TN_OK)
+        status = tn_output_open(o->folder ? o->in_folder : o->paths[o->next], &o->output, error);
+    *stream = status == TN_OK ? o->output.stream : NULL;
+    o->next++;
+    return status;
+}
+
+static tn_status closes(void *context, bool whole, tn_error *error)
+{
+    tn_made_outputs *o = context;
+    tn_status status = TN_OK;
+    if (whole) {
+        status = tn_output_commit(&o->output, error);
+        if (status != TN_OK && error->code == E_CLOSED_PIPE) { /* which ends quietly */
+            tn_job_fail(o->job, error);
+            status = TN_OK;
+        }
+    } else {
+        tn_output_discard(&o->output);
+    }
+    free(o->in_folder);
+    o->in_folder = NULL;
+    return status;
+}
+
+void tn_job_files(tn_job *job, tn_made_outputs *outputs, const char *const *paths, size_t count, bool folder)
+{
+    *outputs = (tn_made_outputs){.job = job, .paths = paths, .count = count, .folder = folder};
+    outputs->taker = (tn_file_taker){opens, closes, outputs};
+    job->session.files = &outputs->taker;
+}
+
+void tn_job_files_end(tn_made_outputs *outputs)
+{
+    free(outputs->in_folder);
+    outputs->job->session.files = NULL;
+}
+
+unsigned tn_picture_choice(const char *path)
+{
+    tn_file_format format = path ? tn_file_format_of(path) : TN_FILE_SVG;
+    return format == TN_FILE_PNG ? 1 : format == TN_FILE_PDF ? 2 : 0;
+}
+
+unsigned tn_answer_picture_choice(const char *path)
+{
+    return tn_job_draws(path) ? 1 + tn_picture_choice(path) : 0;
+}
+
+void tn_job_draw(tn_job *job, const tn_draw_request *request, const char *path)
+{
+    tn_made_outputs outputs;
+    tn_reply answer;
+    tn_job_files(job, &outputs, &path, 1, false);
+    tn_job_answered(job, tn_ask_draw(&job->session, request, &answer));
+    tn_job_files_end(&outputs);
+    tn_reply_clear(&answer);
+}
+
+/* ---- a job */
+
+/* The exit code for a status. */
+static int tn_exit_code(tn_status status)
 {
     switch (status) {
     case TN_OK:
@@ -112,11 +339,6 @@ bool tn_job_answered(tn_job *job, tn_status status)
     else
         tn_job_status(job, status);
     return status == TN_OK;
-}
-
-void tn_job_bad_text(tn_job *job, tn_error *error, const char *name, const char *text)
-{
-    tn_job_answered(job, tn_session_bad_text(&job->session, error, name, text));
 }
 
 void tn_job_write_json(const tn_reply *answer, FILE *out)
@@ -269,7 +491,7 @@ static void close_file(tn_job *job)
 {
     const tn_sources *sources = &job->opened.compilation.sources;
     for (size_t i = 0; job->read && i < sources->count; i++)
-        tn_files_read_add(job->read, sources->files[i].path);
+        files_read_add(job->read, sources->files[i].path);
     tn_session_forget(&job->session);
     tn_close(&job->opened);
 }

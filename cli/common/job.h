@@ -6,23 +6,33 @@
 #ifndef TARTAN_CLI_COMMON_JOB_H
 #define TARTAN_CLI_COMMON_JOB_H
 
+#include <stdbool.h>
+#include <stddef.h>
+#include <time.h>
+
+#include "ask/session/made.h"
 #include "ask/session/session.h"
-#include "cli/common/files_read.h"
 #include "cli/common/options.h"
 #include "cli/common/progress.h"
-#include "driver/open/findings.h"
 #include "driver/open/open.h"
 #include "runtime/base/file.h"
 
-enum {
-    TN_EXIT_DONE = 0,
-    TN_EXIT_INVALID = 1,
-    TN_EXIT_USAGE = 2,
-    TN_EXIT_IO = 3,
-    TN_EXIT_LIMIT = 4,
-    TN_EXIT_INTERNAL = 70,
-    TN_EXIT_INTERRUPTED = 130, /* as shells report SIGINT */
-};
+/* The files that a command has read, and whether they have changed since: for --watch.
+ *
+ * They are looked at five times a second, by name: so it does not matter whether an editor writes into a file or puts
+ * another one in its place, and it works on every file system.
+ */
+
+/* All zero: none yet. Owns the names. */
+typedef struct tn_files_read {
+    struct tn_file_seen *files;
+    size_t count, capacity;
+} tn_files_read;
+
+/* Runs a command, and again whenever a file that it has read changes, until it is interrupted. `once` adds what it
+ * reads and returns an exit code. Returns the last one; the interrupt itself is no failure, but where it cuts a run
+ * short. */
+int tn_watch_files(const tn_settings *settings, int (*once)(const tn_settings *settings, tn_files_read *read));
 
 /* Who is told what there was to say about each file, before it is forgotten. The list is sorted. */
 typedef struct tn_listener {
@@ -77,9 +87,6 @@ bool tn_job_answered(tn_job *job, tn_status status);
 /* Writes an answer as JSON. */
 void tn_job_write_json(const tn_reply *answer, FILE *out);
 
-/* Records an error about a text of the command line; `name` is what the text is called in the usage. */
-void tn_job_bad_text(tn_job *job, tn_error *error, const char *name, const char *text);
-
 /* Records wrong usage, found after the options were read. */
 tn_diagnostic *tn_job_usage(tn_job *job, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
@@ -98,9 +105,6 @@ bool tn_job_agree(const tn_job *job, bool well);
 /* Shows the rest, frees everything and returns the exit code. With several ranks together: rank 0 shows what each had
  * to say, the same only once, and all have the gravest exit code. */
 int tn_job_end(tn_job *job);
-
-/* The exit code for a status. */
-int tn_exit_code(tn_status status);
 
 /* Is the path (NULL: standard output) the name of a picture: .svg, .png or .pdf? */
 bool tn_job_draws(const char *path);
@@ -122,5 +126,33 @@ void tn_job_commit(tn_job *job, tn_output *output);
 /* The same where the work came to its end; otherwise a file is given up (its target stays as it was), and standard
  * output keeps what was written. */
 void tn_job_close(tn_job *job, tn_output *output, bool complete);
+
+/* ---- puts the files that a question makes where -o says */
+
+typedef struct tn_made_outputs {
+    tn_job *job;
+    const char *const *paths;   /* borrowed; of the files, in the order in which they are made */
+    const char *const *folders; /* the folder of each that is made if it is not there; NULL: none. It may be set. */
+    size_t count, next;
+    bool folder;     /* the one path is a folder, and each file has a name in it; one without is index.html */
+    char *in_folder; /* the path of the file that is open there; owned */
+    tn_output output;
+    tn_file_taker taker;
+} tn_made_outputs;
+
+/* From now on files that questions of the job's session make go there. The folder is made with its first file. */
+void tn_job_files(tn_job *job, tn_made_outputs *outputs, const char *const *paths, size_t count, bool folder);
+
+/* No longer. */
+void tn_job_files_end(tn_made_outputs *outputs);
+
+/* Which of the words of a request's `format` the name of a picture means. */
+unsigned tn_picture_choice(const char *path);
+
+/* The same of the pictures of answers: the word none, 0, if the name is none of a picture. */
+unsigned tn_answer_picture_choice(const char *path);
+
+/* Asks for a picture, and puts it there. */
+void tn_job_draw(tn_job *job, const tn_draw_request *request, const char *path);
 
 #endif

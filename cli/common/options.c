@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/common/option_rows.h"
 #include "compiler/common/diagnostic.h"
 
 #define SETTINGS tn_settings
@@ -17,27 +16,17 @@ const tn_option tn_common_options[] = {
 };
 const size_t tn_common_option_count = OPTION_COUNT(tn_common_options);
 
-#define COMMAND(NAME) extern const tn_command tn_command_##NAME;
-#include "cli/common/commands.def"
-#undef COMMAND
-
-const tn_command *const tn_commands[] = {
-#define COMMAND(NAME) &tn_command_##NAME,
-#include "cli/common/commands.def"
-#undef COMMAND
-};
-const size_t tn_commands_count = OPTION_COUNT(tn_commands);
-
-const tn_command *tn_command_find(const char *name)
+const tn_command *tn_command_find(const tn_commands *commands, const char *name)
 {
-    for (size_t i = 0; i < tn_commands_count; i++)
-        if (strcmp(tn_commands[i]->name, name) == 0)
-            return tn_commands[i];
+    for (size_t i = 0; i < commands->count; i++)
+        if (strcmp(commands->items[i]->name, name) == 0)
+            return commands->items[i];
     return NULL;
 }
 
 /* One parse under way. */
 typedef struct parse {
+    const tn_commands *commands;
     const tn_command *command;
     int count;
     char **words;
@@ -87,8 +76,8 @@ static void help_other_commands(parse *p, const char *word)
     enum { SHOWN = 3 };
     char list[160] = "";
     size_t used = 0, found = 0;
-    for (size_t i = 0; i < tn_commands_count; i++) {
-        const tn_command *command = tn_commands[i];
+    for (size_t i = 0; i < p->commands->count; i++) {
+        const tn_command *command = p->commands->items[i];
         if (!find_long(command, word, strlen(word)) || found++ >= SHOWN)
             continue;
         used += (size_t)snprintf(list + used, sizeof list - used, "%s`tartan %.30s`", used ? ", " : "", command->name);
@@ -515,9 +504,10 @@ static tn_status check_files(parse *p)
     return status;
 }
 
-tn_status tn_options_parse(const tn_command *command, int count, char **words, tn_settings *settings, tn_error *error)
+tn_status tn_options_parse(const tn_commands *commands, const tn_command *command, int count, char **words,
+                           tn_settings *settings, tn_error *error)
 {
-    parse p = {command, count, words, 0, settings, error};
+    parse p = {commands, command, count, words, 0, settings, error};
     bool options = true;
     *error = (tn_error){.code_offset = TN_NO_OFFSET};
     while (p.next < count) {

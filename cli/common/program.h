@@ -9,8 +9,10 @@
 /* For the beginning of main: the standard descriptors are there, and signals about pipes and sizes show as errors. */
 void tn_program_begin(void);
 
-/* Reads the words behind the command's name and runs it, with those ranks (NULL: this process alone). The exit code. */
-int tn_program_run(const tn_command *command, int count, char **words, const tn_ranks *ranks);
+/* Reads the words behind the command's name, which is one of `commands`, and runs it, with those ranks (NULL: this
+ * process alone). The exit code. */
+int tn_program_run(const tn_commands *commands, const tn_command *command, int count, char **words,
+                   const tn_ranks *ranks);
 
 /* Says what is wrong with the command line. The exit code. */
 int tn_program_refuse(const tn_settings *settings, const tn_error *error);

@@ -1,6 +1,6 @@
 /* Shows on a terminal how far long work is. */
 #include "cli/common/progress.h"
-#include "runtime/base/clock.h"
+#include "runtime/base/watch.h"
 
 #include <stdio.h>
 #include <unistd.h>

@@ -1,13 +1,301 @@
 /* tartan breed: evolution by a person's eye. */
+#include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "ask/session/questions.h"
+#include "ask/session/session.h"
 #include "cli/common/interrupt.h"
-#include "cli/genome/evolution_session.h"
-#include "cli/genome/prompt.h"
+#include "cli/common/options.h"
+#include "cli/genome/evolve.h"
+#include "driver/breed/evolve.h"
+#include "runtime/base/array.h"
+#include "runtime/base/file.h"
+#include "runtime/base/utf8.h"
+
+/* The first of the words that say what an action does. */
+enum { TN_PROMPT_BREED, TN_PROMPT_SET, TN_PROMPT_INSERT, TN_PROMPT_EDIT, TN_PROMPT_OUT };
+
+typedef struct tn_prompt {
+    const char *dir;          /* the run's folder, in which sentences are edited; borrowed */
+    tn_breed_action *actions; /* what was done; owned */
+    char **texts;             /* of each; owned */
+    size_t count;
+    char *sentence, *edited; /* owned: of the action that was read last; the file that the editor had, or NULL */
+} tn_prompt;
+
+typedef enum prompt_answer {
+    TN_PROMPT_ACTION,  /* it says what is to be done */
+    TN_PROMPT_NOTHING, /* the line is empty */
+    TN_PROMPT_REFUSED  /* what is wrong has been said */
+} prompt_answer;
+
+/* What a person types while breeding: the numbers of parents, `set NAME VALUE`, `insert FILE`, `out N`, `edit N` and
+ * `edit N FILE`. N is a place on the sheet, or with # an id. Each line is read into an action of the question breed. */
+
+/* ---- what is wrong */
+
+/* Shows where a sentence cannot be derived. */
+static void show_place(const char *sentence, size_t at)
+{
+    enum { BEFORE = 50, SHOWN = 76 };
+    size_t size = strlen(sentence), begin = at > BEFORE ? at - BEFORE : 0;
+    tn_write_clean(stdout, sentence + begin, size - begin < SHOWN ? size - begin : SHOWN);
+    printf("\n%*s\n", (int)(at - begin) + 1, "^");
+}
+
+/* Says on standard output what is wrong, with its place in a sentence. */
+static void prompt_say(const tn_diagnostic *d)
+{
+    if (d->input_text && d->input_column > 0)
+        show_place(d->input_text, d->input_column - 1);
+    puts(d->message);
+    if (d->help)
+        puts(d->help);
+}
+
+/* ---- sentences */
+
+/* The sentence that a file has; false, and said, if it cannot be read. */
+static bool read_sentence(tn_prompt *prompt, const char *path)
+{
+    uint8_t *bytes;
+    size_t size;
+    tn_error error;
+    if (tn_file_read(path, TN_SENTENCE_FILE_MAX, &bytes, &size, &error) != TN_OK) {
+        puts(error.message);
+        if (error.help[0])
+            puts(error.help);
+        return false;
+    }
+    for (size_t i = 0; i < size; i++) /* a zero byte is in no sentence, and no end of one */
+        bytes[i] = bytes[i] ? bytes[i] : '?';
+    free(prompt->sentence);
+    prompt->sentence = (char *)bytes;
+    return true;
+}
+
+/* Lets the person's editor change a file; false, and said, where it ended otherwise than well. */
+static bool let_edit(const char *path)
+{
+    const char *editor = getenv("VISUAL");
+    if (!editor || !*editor)
+        editor = getenv("EDITOR");
+    if (!editor || !*editor) {
+        puts("there is no editor: set EDITOR, or write `edit N FILE` with a file that you have edited");
+        return false;
+    }
+    pid_t child = fork();
+    if (child == 0) { /* the variable may hold options, which the shell parts */
+        setenv("TARTAN_EDITED", path, 1);
+        char *command = NULL;
+        if (asprintf(&command, "%s \"$TARTAN_EDITED\"", editor) >= 0)
+            execl("/bin/sh", "sh", "-c", command, (char *)NULL);
+        _exit(127);
+    }
+    int state = 0;
+    while (child > 0 && waitpid(child, &state, 0) < 0 && errno == EINTR)
+        ;
+    bool well = child > 0 && WIFEXITED(state) && WEXITSTATUS(state) == 0;
+    if (!well)
+        printf("the editor (%s) did not end well: nothing is changed\n", editor);
+    return well;
+}
+
+/* A sentence is edited with its statements on lines of their own. */
+static bool write_lines(const char *path, const char *sentence)
+{
+    FILE *out = fopen(path, "w");
+    if (!out)
+        return false;
+    for (const char *at = sentence; *at;) {
+        const char *end = strstr(at, " ; ");
+        size_t size = end ? (size_t)(end - at) : strlen(at);
+        fprintf(out, "%.*s\n", (int)size, at);
+        at = end ? end + 3 : at + size;
+    }
+    return fclose(out) == 0;
+}
+
+/* The member at a place ("3") or with an id ("#41"), or NULL. */
+static const tn_bred_member *member_of(const tn_bred *bred, const char *word)
+{
+    uint64_t number;
+    bool by_id = word[0] == '#', read = tn_number_read(word + by_id, &number);
+    for (size_t i = 0; read && i < bred->members.count; i++)
+        if ((by_id ? bred->members.items[i].told.individual : i + 1) == number)
+            return &bred->members.items[i];
+    return NULL;
+}
+
+/* Lets the person edit a member's sentence; false, and said, if that failed. */
+static bool edit_member(tn_prompt *prompt, const tn_bred *bred, const tn_bred_member *member)
+{
+    const char *sentence = member->told.sentence;
+    char *path = NULL;
+    if (asprintf(&path, "%s/edited-%" PRIu64 ".%s", prompt->dir, member->told.individual, bred->extension) < 0)
+        return false;
+    bool surfaces = strcmp(bred->extension, "hemls") == 0;
+    FILE *plain = surfaces ? NULL : fopen(path, "w");
+    bool written =
+        surfaces ? write_lines(path, sentence) : plain && fprintf(plain, "%s\n", sentence) > 0 && fclose(plain) == 0;
+    if (!written) {
+        printf("cannot write %.200s\n", path);
+        free(path);
+        return false;
+    }
+    prompt->edited = path;
+    return let_edit(path) && read_sentence(prompt, path);
+}
+
+/* ---- lines */
+
+static bool read_insert(tn_prompt *prompt, const tn_bred *bred, char *file, tn_breed_action *action)
+{
+    (void)bred;
+    action->file = file;
+    return read_sentence(prompt, file);
+}
+
+static bool read_out(tn_prompt *prompt, const tn_bred *bred, char *word, tn_breed_action *action)
+{
+    (void)prompt, (void)bred;
+    action->member = word;
+    return true;
+}
+
+static bool read_set(tn_prompt *prompt, const tn_bred *bred, char *change, tn_breed_action *action)
+{
+    (void)prompt, (void)bred;
+    action->change = change;
+    return true;
+}
+
+/* "N" or "N FILE". Whoever is no member is refused by the question. */
+static bool read_edit(tn_prompt *prompt, const tn_bred *bred, char *words, tn_breed_action *action)
+{
+    char *file = words + strcspn(words, " ");
+    if (*file)
+        *file++ = '\0';
+    file += strspn(file, " ");
+    action->member = words;
+    action->file = *file ? file : NULL;
+    const tn_bred_member *member = member_of(bred, words);
+    if (!member)
+        return true;
+    return *file ? read_sentence(prompt, file) : edit_member(prompt, bred, member);
+}
+
+/* Reads a line, whose end is cut off: the action borrows from it and from the prompt. bred: the generation that it is
+ * about. */
+static prompt_answer prompt_read(tn_prompt *prompt, const tn_bred *bred, char *line, tn_breed_action *action)
+{
+    static const struct {
+        const char *name;
+        unsigned does;
+        bool (*read)(tn_prompt *prompt, const tn_bred *bred, char *rest, tn_breed_action *action);
+    } commands[] = {{"set ", TN_PROMPT_SET, read_set},
+                    {"insert ", TN_PROMPT_INSERT, read_insert},
+                    {"out ", TN_PROMPT_OUT, read_out},
+                    {"edit ", TN_PROMPT_EDIT, read_edit}};
+    *action = (tn_breed_action){.does = TN_PROMPT_BREED, .parents = line};
+    line[strcspn(line, "\r\n")] = '\0';
+    for (size_t end = strlen(line); end && line[end - 1] == ' ';)
+        line[--end] = '\0';
+    for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
+        size_t size = strlen(commands[i].name);
+        if (strncmp(line, commands[i].name, size) != 0)
+            continue;
+        *action = (tn_breed_action){.does = commands[i].does};
+        bool read = commands[i].read(prompt, bred, line + size + strspn(line + size, " "), action);
+        action->sentence = prompt->sentence;
+        return read ? TN_PROMPT_ACTION : TN_PROMPT_REFUSED;
+    }
+    return line[strspn(line, " ,\t")] ? TN_PROMPT_ACTION : TN_PROMPT_NOTHING;
+}
+
+/* Ends what was read: what was edited is kept unless it is done. */
+static void prompt_end(tn_prompt *prompt, bool done)
+{
+    if (prompt->edited && done)
+        unlink(prompt->edited);
+    else if (prompt->edited)
+        printf("what you wrote is in %.200s\n", prompt->edited);
+    free(prompt->sentence);
+    free(prompt->edited);
+    prompt->sentence = prompt->edited = NULL;
+}
+
+/* ---- actions */
+
+static size_t size_of(const char *text)
+{
+    return text ? strlen(text) + 1 : 0;
+}
+
+/* The text at *at, which goes on behind it. */
+static const char *put(const char *text, char **at)
+{
+    char *copy = *at;
+    if (!text)
+        return NULL;
+    *at = stpcpy(copy, text) + 1;
+    return copy;
+}
+
+/* The texts of one lie one behind another. */
+static bool copy_action(const tn_breed_action *action, tn_breed_action *copy, char **texts)
+{
+    *texts = malloc(size_of(action->parents) + size_of(action->change) + size_of(action->sentence) +
+                    size_of(action->file) + size_of(action->member) + 1);
+    char *at = *texts;
+    if (!at)
+        return false;
+    *copy = (tn_breed_action){.does = action->does,
+                              .parents = put(action->parents, &at),
+                              .change = put(action->change, &at),
+                              .sentence = put(action->sentence, &at),
+                              .file = put(action->file, &at),
+                              .member = put(action->member, &at)};
+    return true;
+}
+
+/* Copies the action behind those of the request; takes it back. false: out of memory. */
+static bool prompt_add(tn_prompt *prompt, const tn_breed_action *action, tn_breed_request *request)
+{
+    size_t count = prompt->count;
+    if (!tn_array_resize(&prompt->actions, count + 1, sizeof *prompt->actions) ||
+        !tn_array_resize(&prompt->texts, count + 1, sizeof *prompt->texts) ||
+        !copy_action(action, &prompt->actions[count], &prompt->texts[count]))
+        return false;
+    prompt->count++;
+    request->actions.items = prompt->actions;
+    request->actions.count = prompt->count;
+    return true;
+}
+
+static void prompt_take_back(tn_prompt *prompt, tn_breed_request *request)
+{
+    free(prompt->texts[--prompt->count]);
+    request->actions.count = prompt->count;
+}
+
+static void prompt_clear(tn_prompt *prompt)
+{
+    for (size_t i = 0; i < prompt->count; i++)
+        free(prompt->texts[i]);
+    free(prompt->texts);
+    free(prompt->actions);
+    free(prompt->sentence);
+    free(prompt->edited);
+    *prompt = (tn_prompt){0};
+}
+
+/* ---- the command */
 
 /* What has been typed so far, which is what the question asks for. */
 typedef struct by_eye {
@@ -27,7 +315,7 @@ static void refuse(tn_job *job, const tn_diagnostics *kept)
 {
     tn_diagnostics *list = tn_job_diagnostics(job);
     for (size_t i = 0; i < list->count; i++)
-        tn_prompt_say(&list->items[i]);
+        prompt_say(&list->items[i]);
     tn_diagnostics_clear(list);
     *list = *kept;
 }
@@ -46,7 +334,7 @@ static bool act(by_eye *b, const tn_breed_action *action, bool *done)
     tn_diagnostics *list = tn_job_diagnostics(job);
     const tn_diagnostics kept = *list;
     tn_reply answer;
-    if (!tn_prompt_add(&b->prompt, action, &b->request)) {
+    if (!prompt_add(&b->prompt, action, &b->request)) {
         tn_job_status(job, TN_MEMORY);
         return false;
     }
@@ -67,7 +355,7 @@ static bool act(by_eye *b, const tn_breed_action *action, bool *done)
         b->answer = answer;
     } else {
         refuse(job, &kept);
-        tn_prompt_take_back(&b->prompt, &b->request);
+        prompt_take_back(&b->prompt, &b->request);
         tn_reply_clear(&answer);
     }
     return true;
@@ -90,13 +378,13 @@ static bool ask(by_eye *b, bool *failed)
             putchar('\n');
             break;
         }
-        tn_prompt_answer typed = tn_prompt_read(&b->prompt, told(b), line, &action);
+        prompt_answer typed = prompt_read(&b->prompt, told(b), line, &action);
         more = typed != TN_PROMPT_NOTHING;
         if (typed == TN_PROMPT_ACTION) {
             *failed = !act(b, &action, &done);
             more = !*failed;
         }
-        tn_prompt_end(&b->prompt, done);
+        prompt_end(&b->prompt, done);
     }
     free(line);
     return done;
@@ -140,7 +428,7 @@ static int run(const tn_command *command, const tn_settings *settings)
         by_eye b = {.study = &study, .prompt.dir = study.asked.run, .request.asked = study.asked};
         breed(&b);
         tn_reply_clear(&b.answer);
-        tn_prompt_clear(&b.prompt);
+        prompt_clear(&b.prompt);
     }
     return tn_study_job_end(&study);
 }

@@ -7,9 +7,9 @@
 
 #include "ask/session/questions.h"
 #include "cli/common/interrupt.h"
-#include "cli/common/made_outputs.h"
-#include "cli/common/option_rows.h"
-#include "runtime/base/file_error.h"
+#include "cli/common/job.h"
+#include "cli/common/options.h"
+#include "runtime/base/file.h"
 #include "runtime/base/picture.h"
 #include "runtime/genome/mapping/genome.h"
 

@@ -6,7 +6,7 @@
 
 #include "ask/session/questions.h"
 #include "cli/common/job.h"
-#include "cli/common/option_rows.h"
+#include "cli/common/options.h"
 #include "driver/breed/evolve.h"
 #include "runtime/base/file.h"
 #include "runtime/base/utf8.h"

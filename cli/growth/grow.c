@@ -6,10 +6,9 @@
 #include "ask/growth/grow.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/job.h"
-#include "cli/common/made_outputs.h"
-#include "cli/common/option_rows.h"
+#include "cli/common/options.h"
 #include "driver/open/files.h"
-#include "driver/open/stdlib_find.h"
+#include "driver/open/stdlib.h"
 #include "runtime/base/bytes.h"
 
 /* ---- opens what `grow` grows */

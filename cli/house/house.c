@@ -4,8 +4,8 @@
 #include <sys/stat.h>
 
 #include "ask/session/questions.h"
-#include "cli/common/made_outputs.h"
-#include "cli/common/option_rows.h"
+#include "cli/common/job.h"
+#include "cli/common/options.h"
 #include "driver/house/files.h"
 
 typedef struct house_settings {

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "runtime/base/file.h"
-#include "runtime/base/file_error.h"
 #include "runtime/base/utf8.h"
 
 /* Shows what is wrong with a line. */

@@ -3,10 +3,10 @@
 #include <string.h>
 
 #include "ask/session/questions.h"
-#include "cli/common/made_outputs.h"
-#include "cli/common/option_rows.h"
-#include "cli/measure/wishes.h"
+#include "cli/common/job.h"
+#include "cli/common/options.h"
 #include "cli/plan/found_rows.h"
+#include "cli/plan/library_job.h"
 #include "runtime/plan/picture/draw.h"
 
 enum { BEST_MAX = 1000000 };

@@ -2,9 +2,9 @@
 #include <stdlib.h>
 
 #include "ask/session/questions.h"
-#include "cli/common/made_outputs.h"
-#include "cli/common/option_rows.h"
-#include "cli/measure/wishes.h"
+#include "cli/common/job.h"
+#include "cli/common/options.h"
+#include "cli/plan/library_job.h"
 #include "driver/open/digits.h"
 
 typedef struct pareto_settings {

@@ -8,11 +8,9 @@
 #include "ask/form/mesh.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/job.h"
-#include "cli/common/made_outputs.h"
-#include "cli/common/option_rows.h"
+#include "cli/common/options.h"
 #include "runtime/base/bytes.h"
 #include "runtime/base/file.h"
-#include "runtime/base/file_error.h"
 
 /* ---- evaluates a field at the places that the lines of a file name */
 

@@ -3,8 +3,8 @@
 #include <sys/stat.h>
 
 #include "ask/session/questions.h"
-#include "cli/common/made_outputs.h"
-#include "cli/common/option_rows.h"
+#include "cli/common/job.h"
+#include "cli/common/options.h"
 
 typedef struct slice_settings {
     tn_settings common;

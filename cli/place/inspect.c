@@ -2,8 +2,8 @@
 #include <string.h>
 
 #include "ask/session/questions.h"
-#include "cli/common/made_outputs.h"
-#include "cli/common/option_rows.h"
+#include "cli/common/job.h"
+#include "cli/common/options.h"
 #include "cli/place/place.h"
 
 typedef struct inspect_settings {

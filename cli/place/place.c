@@ -6,8 +6,8 @@
 #include "ask/place/place.h"
 #include "ask/session/questions.h"
 #include "cli/common/interrupt.h"
-#include "cli/common/made_outputs.h"
-#include "cli/common/option_rows.h"
+#include "cli/common/job.h"
+#include "cli/common/options.h"
 #include "cli/place/place.h"
 
 typedef struct place_settings {

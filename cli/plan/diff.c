@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "ask/session/requests.h"
-#include "cli/common/made_outputs.h"
-#include "cli/common/option_rows.h"
+#include "cli/common/job.h"
+#include "cli/common/options.h"
 #include "cli/plan/answers.h"
 #include "driver/open/digits.h"
 

@@ -5,8 +5,8 @@
 #include "ask/place/export.h"
 #include "ask/plan/export.h"
 #include "ask/session/questions.h"
-#include "cli/common/made_outputs.h"
-#include "cli/common/option_rows.h"
+#include "cli/common/job.h"
+#include "cli/common/options.h"
 #include "cli/plan/library_job.h"
 
 typedef struct export_settings {

@@ -7,7 +7,60 @@
 #include <unistd.h>
 
 #include "cli/common/interrupt.h"
-#include "driver/plan/made.h"
+#include "driver/parquet/parquet.h"
+#include "driver/plan/provenance.h"
+#include "runtime/plan/store/sqlite.h"
+
+/* ---- writes rows in the format that the options ask for */
+
+/* Opens the output that --output and --format ask for. False where that failed. */
+static bool job_row_writer(tn_job *job, const tn_written_settings *settings, const tn_row_source *source,
+                           tn_plan_writer **writer)
+{
+    if (!tn_job_writes(job, source->rows ? "a list of houses" : "a list of plans", settings->output,
+                       source->rows ? TN_WRITES_ROWS & ~(TN_WRITES(BIN) | TN_WRITES(PARQUET)) : TN_WRITES_ROWS))
+        return false;
+    if (settings->csv_safe && settings->format != TN_FORMAT_CSV) {
+        tn_job_usage(job, "--csv-safe is about --format csv");
+        return false;
+    }
+    if ((settings->plan_lines || settings->row_group.given) && settings->format != TN_FORMAT_PARQUET) {
+        tn_help(tn_job_diagnostics(job), tn_job_usage(job, "--plan-lines and --row-group are about Parquet"),
+                "write to a file that ends in .parquet, or give --format parquet");
+        return false;
+    }
+    tn_writer_options options = {
+        .format = (tn_plan_format)settings->format,
+        .rows = source->rows,
+        .metadata = *source->metadata,
+        .columns = settings->columns,
+        .csv_safe = settings->csv_safe,
+        .resume = settings->resume,
+        .row_group = (uint32_t)settings->row_group.value,
+        .plan_lines = settings->plan_lines,
+        .ranks = source->ranks,
+        .sqlite = tn_plan_sqlite(),
+        .parquet = tn_plan_parquet_calls(),
+    };
+    tn_error error;
+    tn_status status =
+        tn_plan_writer_open(source->schema, settings->output ? settings->output : "-", &options, writer, &error);
+    if (status != TN_OK)
+        tn_job_fail(job, &error);
+    return status == TN_OK;
+}
+
+/* Finishes the file, unless the job has failed: then it is given up (a database keeps its whole batches). Frees the
+ * writer. */
+static void tn_job_rows_close(tn_job *job, tn_plan_writer *writer)
+{
+    tn_error error;
+    if (job->exit_code == TN_EXIT_DONE && !job->reader_gone && tn_plan_writer_close(writer, &error) != TN_OK)
+        tn_job_fail(job, &error);
+    tn_plan_writer_free(writer);
+}
+
+/* ---- writes the plans or houses that a question finds */
 
 #define PART "interrupted; %.400s holds only the first plans of the sample"
 
@@ -21,15 +74,15 @@ static bool open_plans(tn_found_rows *rows)
     const tn_ready_library *ready = rows->of.plans;
     const tn_written_settings *settings = rows->settings;
     char command[400];
-    tn_made described;
+    tn_provenance described;
     mpz_t ranks;
     mpz_init(ranks);
     snprintf(command, sizeof command, "%s%s%s", rows->made, settings->columns ? " --columns" : "",
              rows->of.weight ? " (by weight)" : "");
-    tn_made_describe(&rows->job->opened, ready, rows->job->settings->operands.items[0], command, &described);
+    tn_provenance_describe(&rows->job->opened, ready, rows->job->settings->operands.items[0], command, &described);
     tn_library_kept(ready->library, TN_ALL_LENGTHS, ranks);
     const tn_row_source source = {.schema = ready->schema, .metadata = &described.metadata, .ranks = ranks};
-    bool opened = tn_job_row_writer(rows->job, settings, &source, &rows->writer);
+    bool opened = job_row_writer(rows->job, settings, &source, &rows->writer);
     mpz_clear(ranks);
     return opened;
 }
@@ -38,11 +91,11 @@ static bool open_houses(tn_found_rows *rows)
 {
     static const tn_row_columns columns = {"houses", {"plan_rank", "variant", "house"}, 3};
     const tn_numbered *n = rows->of.houses;
-    tn_made described;
-    tn_made_describe_houses(&rows->job->opened, n->plans, tn_text(n->form.module, n->record->name),
-                            rows->job->settings->operands.items[0], rows->made, &described);
+    tn_provenance described;
+    tn_provenance_describe_houses(&rows->job->opened, n->plans, tn_text(n->form.module, n->record->name),
+                                  rows->job->settings->operands.items[0], rows->made, &described);
     const tn_row_source source = {.schema = n->schema, .metadata = &described.metadata, .rows = &columns};
-    return tn_job_row_writer(rows->job, rows->settings, &source, &rows->writer);
+    return job_row_writer(rows->job, rows->settings, &source, &rows->writer);
 }
 
 static const char *things(const tn_found_rows *rows)

@@ -2,11 +2,40 @@
 #include "cli/plan/library_job.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "cli/common/interrupt.h"
 #include "cli/common/progress.h"
 #include "driver/house/judge.h"
 #include "driver/open/digits.h"
+
+/* ---- measures to make small or great */
+
+bool tn_job_wishes(tn_job *job, const tn_option_list *list, uint32_t least, tn_wished *wished)
+{
+    tn_diagnostics *diagnostics = tn_job_diagnostics(job);
+    *wished = (tn_wished){0};
+    if (list->count / 2 < least || list->count / 2 > TN_WEIGHED_MAX) {
+        tn_help(diagnostics,
+                tn_job_usage(job, "%s measures to go by: %u to %d are needed",
+                             list->count / 2 < least ? "too few" : "too many", least, TN_WEIGHED_MAX),
+                "name them with --least MEASURE or --most MEASURE");
+        return false;
+    }
+    for (size_t i = 0; i + 1 < list->count; i += 2) {
+        bool then = strncmp(list->items[i], "then-", 5) == 0;
+        if (then != (i > 0 && least == 1)) {
+            tn_help(diagnostics, tn_job_usage(job, then ? "--%s is first" : "--%s is not the first", list->items[i]),
+                    "the first measure is told by --least or --most, the next by --then-least or --then-most");
+            return false;
+        }
+        wished->items[wished->count++] =
+            (tn_wish){.measure = list->items[i + 1], .most = strstr(list->items[i], "most") != NULL};
+    }
+    return true;
+}
+
+/* ---- the library */
 
 unsigned tn_job_threads(const tn_plan_settings *plans)
 {
@@ -67,12 +96,6 @@ tn_library_asked tn_job_asked(const tn_plan_settings *plans)
 bool tn_job_of_houses(const tn_job *job, const tn_plan_settings *plans)
 {
     return plans->library && tn_house_library_find(job->opened.module, plans->library) != TN_NO_RECORD;
-}
-
-tn_house_settings tn_job_houses(const tn_plan_settings *plans)
-{
-    const tn_library_asked asked = tn_job_asked(plans);
-    return tn_asked_houses(&asked);
 }
 
 bool tn_job_opened_library(tn_job *job, const tn_plan_settings *plans, tn_ready_library *ready)

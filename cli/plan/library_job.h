@@ -3,10 +3,39 @@
 #define TARTAN_CLI_PLAN_LIBRARY_JOB_H
 
 #include "ask/house/numbered.h"
+#include "ask/plan/best.h"
 #include "ask/session/requests.h"
 #include "cli/common/job.h"
-#include "cli/common/option_rows.h"
+#include "cli/common/options.h"
 #include "driver/plan/library.h"
+#include "runtime/place/count/count.h"
+
+/* ---- options about the buildings of a kit, for commands that ask the same of libraries */
+
+typedef struct tn_kit_options {
+    tn_option_number parts;
+    tn_option_list kinds; /* parts by name; none: all of the kit */
+    const char *inside;   /* a model of the kit, or NULL */
+    bool fixed;
+} tn_kit_options;
+
+/* Rows for commands that embed tn_kit_options as `kit`. verb: what is done with the buildings. */
+#define OPTIONS_KIT(verb)                                                                                              \
+    NUMBER("parts", 0, "N", kit.parts, 1, TN_COUNT_PARTS_MAX, "of a kit: " verb " the buildings of N parts"),          \
+        LIST("part", 0, "NAME", kit.kinds, "of a kit: only of these parts; may be repeated (default: all)"),           \
+        TEXT("inside", 0, "MODEL", kit.inside,                                                                         \
+             "of a kit: " verb " those inside of the space of this model, each where it stands"),                      \
+        FLAG("fixed", 0, kit.fixed, "of a kit: tell apart buildings that differ by a turn")
+
+/* The same as part of a request. */
+static inline tn_kit_asked tn_kit_options_asked(const tn_kit_options *options)
+{
+    return (tn_kit_asked){.has_parts = options->parts.given,
+                          .parts = options->parts.value,
+                          .part = {options->kinds.items, options->kinds.count},
+                          .inside = options->inside,
+                          .fixed = options->fixed};
+}
 
 /* The options of commands about plans: which library, and what the work may take. Commands embed it as `plans`. */
 typedef struct tn_plan_settings {
@@ -59,9 +88,6 @@ tn_library_options tn_job_library_options(const tn_plan_settings *plans);
 /* The same as part of a request. */
 tn_library_asked tn_job_asked(const tn_plan_settings *plans);
 
-/* The same for libraries of houses. */
-tn_house_settings tn_job_houses(const tn_plan_settings *plans);
-
 /* The same, but only the schema: for commands that match plans against the clauses. */
 bool tn_job_library_schema(tn_job *job, const char *path, const tn_plan_settings *plans, tn_ready_library *ready);
 
@@ -70,5 +96,16 @@ unsigned tn_job_threads(const tn_plan_settings *plans);
 
 /* The longest plan that the options accept. */
 size_t tn_job_max_length(const tn_plan_settings *plans);
+
+/* ---- what `best` and `pareto` are told to make small or great */
+
+/* Room for the measures of --least, --most and so on. */
+typedef struct tn_wished {
+    tn_wish items[TN_WEIGHED_MAX];
+    size_t count;
+} tn_wished;
+
+/* Reads the options, which have added to `list`; `least` of them are needed. False if one is wrong: then reported. */
+bool tn_job_wishes(tn_job *job, const tn_option_list *list, uint32_t least, tn_wished *wished);
 
 #endif

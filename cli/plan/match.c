@@ -1,10 +1,10 @@
 /* tartan match: which rules each plan matches. */
 #include "ask/plan/match.h"
-#include "cli/common/option_rows.h"
+#include "cli/common/options.h"
 #include "cli/house/judged.h"
 #include "cli/plan/library_job.h"
 #include "cli/plan/plan_input.h"
-#include "driver/plan/matched.h"
+#include "driver/plan/answering.h"
 
 typedef struct match_settings {
     tn_settings common;

@@ -8,7 +8,8 @@
 #include "ask/plan/enumerate.h"
 #include "cli/common/interrupt.h"
 #include "driver/open/digits.h"
-#include "driver/plan/made.h"
+#include "driver/plan/provenance.h"
+#include "driver/shards/manifest.h"
 #include "runtime/base/utf8.h"
 #include "runtime/plan/text/pack.h"
 

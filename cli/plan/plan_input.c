@@ -7,7 +7,7 @@
 
 #include "cli/common/interrupt.h"
 #include "cli/plan/library_job.h"
-#include "driver/open/suggest_file.h"
+#include "driver/open/missing.h"
 #include "driver/parquet/parquet.h"
 #include "driver/zstd/zstd.h"
 #include "runtime/plan/store/sqlite.h"

@@ -1,10 +1,10 @@
 /* tartan prune: filters plans through a library. */
 #include <string.h>
 
-#include "cli/common/option_rows.h"
+#include "cli/common/options.h"
 #include "cli/plan/library_job.h"
 #include "cli/plan/plan_input.h"
-#include "driver/plan/pruned.h"
+#include "driver/plan/answering.h"
 
 typedef struct prune_settings {
     tn_settings common;

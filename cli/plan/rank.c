@@ -3,7 +3,7 @@
 
 #include "ask/house/numbered.h"
 #include "ask/session/questions.h"
-#include "cli/common/option_rows.h"
+#include "cli/common/options.h"
 #include "cli/plan/library_job.h"
 
 typedef struct rank_settings {

@@ -3,8 +3,8 @@
 
 #include "ask/session/questions.h"
 #include "cli/common/interrupt.h"
-#include "cli/common/made_outputs.h"
-#include "cli/common/option_rows.h"
+#include "cli/common/job.h"
+#include "cli/common/options.h"
 #include "cli/plan/library_job.h"
 #include "runtime/base/formats.h"
 

@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 #include "ask/session/questions.h"
-#include "cli/common/option_rows.h"
+#include "cli/common/options.h"
 #include "cli/plan/found_rows.h"
 #include "cli/plan/new_set.h"
 

@@ -4,7 +4,7 @@
 
 #include "ask/session/questions.h"
 #include "cli/common/listed.h"
-#include "cli/common/option_rows.h"
+#include "cli/common/options.h"
 
 static void write_field(const tn_shown_field *field, int width, FILE *out)
 {

@@ -9,12 +9,12 @@
 #include "cli/common/progress.h"
 #include "cli/shards/shards.h"
 #include "driver/open/digits.h"
-#include "driver/shards/check.h"
-#include "driver/shards/claim.h"
+#include "driver/shards/gather.h"
 #include "driver/shards/inputs.h"
 #include "driver/shards/record.h"
+#include "driver/shards/run.h"
 #include "runtime/base/crew.h"
-#include "runtime/base/file_error.h"
+#include "runtime/base/file.h"
 #include "runtime/base/utf8.h"
 
 #define SHOWN_MOST 10u       /* claims, and wrong shards */

@@ -5,8 +5,7 @@
 #include "ask/plan/match.h"
 #include "cli/plan/found_rows.h"
 #include "cli/plan/plan_input.h"
-#include "driver/plan/matched.h"
-#include "driver/plan/pruned.h"
+#include "driver/plan/answering.h"
 #include "driver/shards/set.h"
 
 typedef struct tn_shards_settings {
@@ -45,23 +44,11 @@ typedef struct tn_shards_open {
 /* What --format says beside the formats of plans. */
 enum { TN_SHARDS_NAMES = TN_FORMAT_COUNT, TN_SHARDS_BITS, TN_SHARDS_ANY };
 
-/* Reads the manifest of the set that the second operand names. False where that failed (then end the job). */
-bool tn_shards_read(tn_job *job, tn_shards_open *open);
-
 /* Opens the module of a set that was read, and its library or rules, which must agree with the manifest. */
 bool tn_shards_open_rules(tn_job *job, tn_shards_open *open);
 
 /* Makes ready what the set's answers are made by, of the file that the job has open. */
 bool tn_shards_ready_answers(tn_job *job, tn_shards_open *open);
-void tn_shards_close_library(tn_shards_open *open); /* before the job's end */
-void tn_shards_clear(tn_shards_open *open);         /* after it */
-
-/* Reads a time: 90, 90s, 55m, 2h or 1d, in seconds. False where the text is none. */
-bool tn_time_read(const char *text, double *seconds);
-
-/* How many threads the options ask for: by default as many as there are processors, and one on each of several ranks.
- */
-unsigned tn_shards_threads(const tn_job *job);
 
 /* The seconds after which a claim is stale; false where the option is no time, which is recorded. */
 bool tn_shards_stale(tn_job *job, double *seconds);
@@ -69,10 +56,7 @@ bool tn_shards_stale(tn_job *job, double *seconds);
 /* Each does one thing that `tartan shards` does, and records what went wrong. */
 void tn_shards_new(tn_job *job);
 void tn_shards_new_answers(tn_job *job, tn_shards_open *open);
-void tn_shards_run_set(tn_job *job, tn_shards_open *open);
 void tn_shards_status(tn_job *job, tn_shards_open *open);
 void tn_shards_check_set(tn_job *job, tn_shards_open *open);
-void tn_shards_cat(tn_job *job, tn_shards_open *open);
-void tn_shards_merge(tn_job *job, tn_shards_open *open);
 
 #endif

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "cli/common/job.h"
-#include "cli/common/option_rows.h"
+#include "cli/common/options.h"
 
 typedef struct build_settings {
     tn_settings common;

@@ -1,19 +1,342 @@
 /* tartan check: says what is wrong with rule files, and what their rules mean. */
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "ask/session/questions.h"
+#include "ask/session/requests.h"
 #include "ask/source/check.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/job.h"
-#include "cli/common/option_rows.h"
+#include "cli/common/line_diff.h"
+#include "cli/common/options.h"
 #include "cli/common/progress.h"
 #include "cli/plan/answers.h"
-#include "cli/plan/relations_text.h"
-#include "cli/plan/tested_text.h"
-#include "cli/source/fix.h"
+#include "cli/plan/test.h"
 #include "cli/source/sarif.h"
 #include "driver/solid/solid.h"
+
+/* ---- relations as matrices for people */
+
+/* The relations of a file's rules, and of the clauses of its libraries of houses, as `check --relations` shows them. */
+
+/* How a relation is written: the sign in the matrix, its word, and what it means of rules, and of clauses about houses.
+ */
+typedef struct sign {
+    char letter;
+    const char *word, *meaning, *of_houses;
+} sign;
+
+enum { UNKNOWN, EQUAL, APART, INSIDE, CONTAINS, OVERLAP, SIGNS };
+
+static const sign signs[SIGNS] = {
+    [UNKNOWN] = {'?', "unknown", "not analysed", "not found out"},
+    [EQUAL] = {'=', "equal", "the same plans", "the same houses"},
+    [APART] = {'/', "apart", "no plan in common", "no house in common"},
+    [INSIDE] = {'<', "inside", "the column's rule matches all that the row's does",
+                "the column's clause matches all that the row's does"},
+    [CONTAINS] = {'>', "contains", "the row's rule matches all that the column's does",
+                  "the row's clause matches all that the column's does"},
+    [OVERLAP] = {'x', "overlap", "some plans in common", "some houses in common"},
+};
+
+static int sign_of(const char *word)
+{
+    for (int s = 0; s < SIGNS; s++)
+        if (strcmp(signs[s].word, word) == 0)
+            return s;
+    return UNKNOWN;
+}
+
+static const tn_texts *names_of(const tn_related *related)
+{
+    return related->has_library ? &related->clauses : &related->rules;
+}
+
+/* Pairs are in the order of a row's cells behind the diagonal. */
+static int relation(const tn_related *related, size_t i, size_t j)
+{
+    size_t count = names_of(related)->count, low = i < j ? i : j, high = i < j ? j : i;
+    size_t before = low * count - low * (low + 1) / 2;
+    int s = sign_of(related->relations.items[before + high - low - 1].relation);
+    return i < j ? s : s == INSIDE ? CONTAINS : s == CONTAINS ? INSIDE : s;
+}
+
+static int name_width(const tn_texts *names)
+{
+    int width = 0;
+    for (size_t i = 0; i < names->count; i++) {
+        int length = (int)strlen(names->items[i]);
+        width = length > width ? length : width;
+    }
+    return width;
+}
+
+/* Each has a number, which heads its column. */
+static void write_matrix(const tn_related *related, FILE *out)
+{
+    const tn_texts *names = names_of(related);
+    size_t count = names->count, cells[SIGNS] = {0};
+    int width = name_width(names), digits = snprintf(NULL, 0, "%zu", count);
+    fprintf(out, "%*s", digits + 1 + width, "");
+    for (size_t j = 0; j < count; j++)
+        fprintf(out, " %*zu", digits, j + 1);
+    fputc('\n', out);
+    for (size_t i = 0; i < count; i++) {
+        fprintf(out, "%*zu %-*s", digits, i + 1, width, names->items[i]);
+        for (size_t j = 0; j < count; j++) {
+            int s = i == j ? EQUAL : relation(related, i, j);
+            cells[s] += i != j;
+            fprintf(out, " %*c", digits, i == j ? '.' : signs[s].letter);
+        }
+        fputc('\n', out);
+    }
+    for (int s = 0; s < SIGNS; s++)
+        if (cells[s]) /* inside and contains are one relation seen from both */
+            fprintf(out, "%c %s: %s (%zu)\n", signs[s].letter, signs[s].word,
+                    related->has_library ? signs[s].of_houses : signs[s].meaning,
+                    s == INSIDE || s == CONTAINS ? cells[s] : cells[s] / 2);
+}
+
+static void write_pair(const tn_related_pair *pair, FILE *out)
+{
+    if (!pair->has_both)
+        return;
+    fprintf(out, "\n%s, %s: %s\n", pair->a, pair->b, pair->relation);
+    if (pair->both)
+        fprintf(out, "  both: %s\n", pair->both);
+    if (pair->only_a)
+        fprintf(out, "  only %s: %s\n", pair->a, pair->only_a);
+    if (pair->only_b)
+        fprintf(out, "  only %s: %s\n", pair->b, pair->only_b);
+}
+
+/* A matrix for each schema, and for each library of houses; then the examples, if there are any. */
+static void relations_text(const tn_relations *relations, FILE *out)
+{
+    size_t schemas = 0;
+    const char *between = "";
+    for (size_t i = 0; i < relations->items.count; i++)
+        schemas += relations->items.items[i].has_schema;
+    for (size_t i = 0; i < relations->items.count; i++) {
+        const tn_related *related = &relations->items.items[i];
+        if (related->has_schema && related->rules.count == 0)
+            continue;
+        if (related->has_library)
+            fprintf(out, "%shouses that the clauses of %s match\n", between, related->library);
+        else if (schemas > 1)
+            fprintf(out, "%s%s\n", between, related->schema);
+        write_matrix(related, out);
+        for (size_t k = 0; k < related->relations.count; k++)
+            write_pair(&related->relations.items[k], out);
+        between = "\n";
+    }
+}
+
+/* ---- --fix: the replacements that diagnostics suggest */
+
+/* A replacement may uncover another mistake; more rounds than this mean that two of them undo each other. */
+enum { ROUNDS_MAX = 20 };
+
+typedef struct fixed_text {
+    char *text; /* zero-ended; owned */
+    size_t size, fixes;
+} fixed_text;
+
+/* The next replacement at or after `from` in the file itself (source 0), as sorted diagnostics have them. */
+static const tn_diagnostic *next_fix(const tn_diagnostics *list, size_t from)
+{
+    const tn_diagnostic *first = NULL;
+    for (size_t i = 0; i < list->count; i++) {
+        const tn_diagnostic *item = &list->items[i];
+        bool own = item->replacement && item->has_span && item->span.file == 0 && item->span.begin >= from;
+        if (own && (!first || item->span.begin < first->span.begin))
+            first = item;
+    }
+    return first;
+}
+
+/* Puts all replacements in place that do not overlap. False where out of memory. */
+static bool apply(const tn_diagnostics *list, const fixed_text *old, fixed_text *made)
+{
+    *made = (fixed_text){.fixes = old->fixes};
+    FILE *out = open_memstream(&made->text, &made->size);
+    if (!out)
+        return false;
+    size_t at = 0;
+    for (const tn_diagnostic *fix; (fix = next_fix(list, at)) != NULL;) {
+        fwrite(old->text + at, 1, fix->span.begin - at, out);
+        fputs(fix->replacement, out);
+        at = fix->span.end > fix->span.begin ? fix->span.end : fix->span.begin + 1; /* one insertion at a place */
+        if (fix->span.end == fix->span.begin && fix->span.begin < old->size)
+            fputc(old->text[fix->span.begin], out);
+        made->fixes++;
+    }
+    if (at < old->size)
+        fwrite(old->text + at, 1, old->size - at, out);
+    bool failed = ferror(out) != 0;
+    if (fclose(out) == 0 && !failed)
+        return true;
+    free(made->text);
+    made->text = NULL;
+    return false;
+}
+
+/* One round: compiles the text, and applies what is suggested. *more: something was. */
+static tn_status improve(const char *path, fixed_text *fixed, bool *more, tn_error *error)
+{
+    tn_opened opened = {0};
+    fixed_text made;
+    tn_diagnostics_init(&opened.compilation.diagnostics, &opened.compilation.sources);
+    tn_open_bytes(path, (const uint8_t *)fixed->text, fixed->size, false, &opened);
+    tn_diagnostics_sort(&opened.compilation.diagnostics);
+    bool good = apply(&opened.compilation.diagnostics, fixed, &made);
+    tn_close(&opened);
+    if (!good)
+        return tn_fail_memory(error);
+    *more = made.fixes > fixed->fixes;
+    free(fixed->text);
+    *fixed = made;
+    return TN_OK;
+}
+
+static tn_status fix_all(const char *path, fixed_text *fixed, tn_error *error)
+{
+    bool more = true;
+    tn_status status = TN_OK;
+    for (int round = 0; status == TN_OK && more && round < ROUNDS_MAX; round++)
+        status = improve(path, fixed, &more, error);
+    return status;
+}
+
+/* Asks a person. Only y and yes are yes. */
+static bool asks_yes(const char *path)
+{
+    char *line = NULL;
+    size_t capacity = 0;
+    fprintf(stderr, "Write %s? [y/N] ", path);
+    tn_interrupt_asking(true);
+    bool read = !tn_interrupted() && getline(&line, &capacity, stdin) >= 0;
+    tn_interrupt_asking(false);
+    bool yes = read && !tn_interrupted() && (strcmp(line, "y\n") == 0 || strcmp(line, "yes\n") == 0);
+    if (!read)
+        fputc('\n', stderr);
+    free(line);
+    return yes;
+}
+
+/* Is the file on the disk still what was read? An editor may have saved it while a person thought. */
+static bool still_same(tn_job *job, const char *path, const char *text, size_t size)
+{
+    uint8_t *bytes = NULL;
+    size_t now = 0;
+    tn_error error;
+    if (tn_file_read(path, TN_SOURCE_BYTES_MAX, &bytes, &now, &error) != TN_OK) {
+        tn_job_fail(job, &error);
+        return false;
+    }
+    bool same = now == size && memcmp(bytes, text, size) == 0;
+    free(bytes);
+    if (same)
+        return true;
+    tn_fail(&error, TN_IO, E_CANNOT_WRITE, "%.300s has changed meanwhile; nothing is written", path);
+    tn_job_fail(job, &error);
+    return false;
+}
+
+/* What was read is compared last, when all but the renaming is done: an edit in between would be lost. */
+static void write_file(tn_job *job, const char *path, const char *text, size_t size, const fixed_text *fixed)
+{
+    tn_output output;
+    tn_error error;
+    if (!tn_job_output(job, path, &output))
+        return;
+    fwrite(fixed->text, 1, fixed->size, output.stream);
+    fflush(output.stream);
+    if (!still_same(job, path, text, size)) {
+        tn_output_discard(&output);
+        return;
+    }
+    if (tn_output_commit(&output, &error) != TN_OK) {
+        tn_job_fail(job, &error);
+        return;
+    }
+    tn_job_note(job, "%.300s: %zu place%s replaced", path, fixed->fixes, fixed->fixes == 1 ? "" : "s");
+}
+
+static bool show_difference(tn_job *job, const char *path, const char *before, const char *after)
+{
+    tn_output output;
+    if (!tn_job_output(job, NULL, &output))
+        return false;
+    bool good = tn_line_diff(path, "fixed", before, after, output.stream);
+    tn_job_commit(job, &output);
+    fflush(stdout);
+    if (good)
+        return !job->reader_gone;
+    tn_error error;
+    tn_fail_memory(&error);
+    tn_job_fail(job, &error);
+    return false;
+}
+
+static bool deliver(tn_job *job, const char *path, const char *text, size_t size, const fixed_text *fixed, bool yes)
+{
+    if (strcmp(text, fixed->text) == 0) {
+        tn_job_note(job, "%.300s: no diagnostic suggests a replacement", path);
+        return true;
+    }
+    if (!show_difference(job, path, text, fixed->text))
+        return false;
+    bool person = isatty(STDIN_FILENO) && isatty(STDERR_FILENO);
+    if (yes || (person && asks_yes(path)))
+        write_file(job, path, text, size, fixed);
+    else if (person)
+        tn_job_note(job, "%.300s stays as it is", path);
+    else
+        tn_job_note(job, "%.300s stays as it is: --yes writes it", path);
+    return job->exit_code <= TN_EXIT_INVALID && !tn_interrupted();
+}
+
+/* The file is read several times and written, which a pipe or a device cannot be. What is not there is said by reading.
+ */
+static tn_status expect_file(const char *path, tn_error *error)
+{
+    struct stat found;
+    if (stat(path, &found) != 0 || S_ISREG(found.st_mode) || S_ISDIR(found.st_mode))
+        return TN_OK;
+    tn_fail(error, TN_IO, E_CANNOT_WRITE, "cannot write %.300s: it is a pipe or a device, not a file", path);
+    tn_error_help(error, "--fix reads a file and writes it again: name one");
+    return TN_IO;
+}
+
+/* Shows what would change as a difference, and writes the file where `yes` says so or a person at the terminal does.
+ * The file is replaced whole. What is wrong with it is left for the caller to say. False: do not go on. */
+static bool fix_file(tn_job *job, const char *path, bool yes)
+{
+    uint8_t *bytes = NULL;
+    size_t size = 0;
+    tn_error error;
+    if (expect_file(path, &error) != TN_OK || tn_file_read(path, TN_SOURCE_BYTES_MAX, &bytes, &size, &error) != TN_OK) {
+        tn_job_fail(job, &error);
+        return false;
+    }
+    fixed_text fixed = {.text = strndup((const char *)bytes, size), .size = size};
+    tn_status status = TN_OK;
+    if (!fixed.text)
+        status = tn_fail_memory(&error);
+    else if (strlen(fixed.text) == size) /* else it is no text, which opening says */
+        status = fix_all(path, &fixed, &error);
+    bool going = status == TN_OK && deliver(job, path, (const char *)bytes, size, &fixed, yes);
+    if (status != TN_OK)
+        tn_job_fail(job, &error);
+    free(fixed.text);
+    free(bytes);
+    return going;
+}
+
+/* ---- the command */
 
 typedef struct check_settings {
     tn_settings common;
@@ -101,7 +424,7 @@ static void relate(tn_job *job)
         if (settings->json)
             tn_job_write_json(&answer, output.stream);
         else
-            tn_relations_text(TN_REPLY(relations, &answer), output.stream);
+            relations_text(TN_REPLY(relations, &answer), output.stream);
         tn_job_commit(job, &output);
     }
     tn_reply_clear(&answer);
@@ -246,7 +569,7 @@ static void check_all(tn_job *job)
     for (size_t i = 0; i < operands->count; i++) {
         const char *path = operands->items[i];
         bool part = tn_path_joins(path);
-        if (settings->fix && !tn_fix_file(job, path, settings->yes))
+        if (settings->fix && !fix_file(job, path, settings->yes))
             return;
         if (settings->fix && tn_job_diagnostics(job)->count > 0)
             tn_job_next(job);

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "cli/common/job.h"
-#include "cli/common/option_rows.h"
+#include "cli/common/options.h"
 #include "driver/plan/library.h"
 #include "runtime/number/tape.h"
 

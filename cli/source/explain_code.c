@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "cli/common/job.h"
-#include "cli/common/option_rows.h"
+#include "cli/common/options.h"
 
 static const struct {
     uint32_t code;

@@ -4,7 +4,7 @@
 
 #include "cli/common/job.h"
 #include "cli/common/line_diff.h"
-#include "cli/common/option_rows.h"
+#include "cli/common/options.h"
 #include "compiler/format.h"
 
 typedef struct fmt_settings {

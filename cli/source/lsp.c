@@ -2,7 +2,7 @@
 #include <unistd.h>
 
 #include "cli/common/job.h"
-#include "lsp/lsp.h"
+#include "lsp/serve.h"
 
 static int run(const tn_command *command, const tn_settings *settings)
 {

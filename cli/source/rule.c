@@ -4,10 +4,10 @@
 #include <string.h>
 
 #include "ask/session/questions.h"
-#include "cli/common/made_outputs.h"
-#include "cli/common/option_rows.h"
+#include "cli/common/job.h"
+#include "cli/common/options.h"
 #include "compiler/common/lexical.h"
-#include "compiler/common/text_lines.h"
+#include "compiler/common/source.h"
 
 typedef struct rule_settings {
     tn_settings common;

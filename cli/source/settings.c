@@ -3,7 +3,7 @@
 
 #include "ask/session/questions.h"
 #include "cli/common/listed.h"
-#include "cli/common/option_rows.h"
+#include "cli/common/options.h"
 
 static void write_setting(const tn_shown_setting *setting, FILE *out)
 {

@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #include "cli/common/job.h"
-#include "cli/common/option_rows.h"
+#include "cli/common/options.h"
 
 enum { WORDS_MAX = 12, NUMBER_SIZE = 48 };
 

@@ -8,6 +8,7 @@
 
 #include "compiler/common/arena.h"
 #include "compiler/common/diagnostic.h"
+#include "compiler/common/layout.h"
 #include "compiler/common/lexical.h"
 #include "compiler/common/token.h"
 #include "runtime/module/module.h"
@@ -136,5 +137,47 @@ void tn_bnf_rule_new(tn_bnf_reader *reader, tn_span head_span, tn_bnf_text head,
 void tn_bnf_rule_broken(tn_bnf_reader *reader, tn_span head_span, tn_bnf_text head);
 void tn_bnf_unexpected(tn_bnf_reader *reader, tn_span span, const char *token);
 void tn_bnf_memory_exhausted(tn_bnf_reader *reader, tn_span span, const char *message);
+
+/* From the AST of a .bnf file to rules that can be emitted: terminals are made, names found, and what could not work is
+ * reported. */
+
+#define TN_BNF_PRODUCTIONS_MAX 1000000u /* alternatives of a grammar: what loading allows in one section */
+#define TN_BNF_NONE UINT32_MAX
+
+typedef struct tn_bnf_grammar {
+    tn_bnf_reader *reader;
+    tn_bnf_rule **rules; /* by index; the first is the start symbol */
+    size_t rule_count;
+    size_t production_count;
+    uint32_t *names; /* hash table of rule indices */
+    size_t names_size;
+} tn_bnf_grammar;
+
+/* Lists the rules that were read (compile.c). False if out of memory. */
+bool tn_bnf_collect_rules(tn_bnf_grammar *grammar);
+
+/* Makes every alternative's pieces into terminals and drops the empty ones (bnf_terminals.c). */
+void tn_bnf_make_terminals(tn_bnf_grammar *grammar);
+
+/* Finds the names; then which rules can end and which can be reached (bnf_check.c). */
+void tn_bnf_check(tn_bnf_grammar *grammar);
+
+/* Index of a rule by its name with brackets, or TN_BNF_NONE. */
+uint32_t tn_bnf_find(const tn_bnf_grammar *grammar, tn_bnf_text name);
+
+/* What formatting .bnf files needs besides laying them out. */
+
+/* Lays out a .bnf file. */
+void tn_format_bnf(tn_format *format);
+
+/* Leaves out the white space around alternatives of the dialect ge; in genr8 there are no such texts. */
+void tn_format_bnf_trim(const tn_source *source, tn_tokens *tokens);
+
+/* A directive with one blank between its words. */
+tn_format_spell tn_format_bnf_directive;
+
+/* Do the two mean the same? Makes the terminals of both, so that they are of no use afterwards. False also where out of
+ * memory, which the arena remembers. */
+bool tn_format_bnf_same(tn_bnf_reader *one, tn_bnf_reader *other);
 
 #endif

@@ -17,7 +17,7 @@ typedef struct tn_bnf_study {
     tn_span mapping_span;
 } tn_bnf_study;
 
-/* study: or NULL. TN_OK, TN_INVALID where there are errors, TN_MEMORY. */
+/* study: or NULL. TN_OK, TN_INVALID if there are errors, TN_MEMORY. */
 tn_status tn_bnf_compile(tn_sources *sources, uint32_t file, const tn_bnf_study *study, tn_diagnostics *diagnostics,
                          tn_arena *arena, tn_builder *builder, tn_error *error);
 

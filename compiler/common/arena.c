@@ -91,6 +91,11 @@ void *tn_arena_alloc(tn_arena *arena, size_t size)
     return memory;
 }
 
+void *tn_arena_make(void *arena, size_t size)
+{
+    return tn_arena_alloc(arena, size);
+}
+
 void *tn_arena_alloc_array(tn_arena *arena, size_t size, size_t count)
 {
     size_t bytes;

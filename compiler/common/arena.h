@@ -7,16 +7,19 @@
 
 typedef struct tn_arena tn_arena;
 
-tn_arena *tn_arena_new(void); /* NULL where out of memory */
+tn_arena *tn_arena_new(void); /* NULL if out of memory */
 void tn_arena_free(tn_arena *arena);
 
-/* Zeroed memory, aligned for any type; NULL where out of memory, which is remembered. */
+/* Zeroed memory, aligned for any type; NULL if out of memory, which is remembered. */
 void *tn_arena_alloc(tn_arena *arena, size_t size);
 void *tn_arena_alloc_array(tn_arena *arena, size_t size, size_t count); /* count items of that size */
 char *tn_arena_copy(tn_arena *arena, const char *text, size_t length);  /* with a zero byte after it */
 
+/* tn_arena_alloc, for a hash table (runtime/base/hash_table.h). */
+void *tn_arena_make(void *arena, size_t size);
+
 /* Room for one more item behind the `count` of an array of pointers in the arena: the array, moved where it was full,
- * or NULL where out of memory. */
+ * or NULL if out of memory. */
 void *tn_arena_room(tn_arena *arena, void *items, size_t count, size_t *capacity);
 
 /* Did any allocation fail? */

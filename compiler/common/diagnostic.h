@@ -13,8 +13,9 @@
 
 #include <stdio.h>
 
+#include "compiler/common/arena.h"
 #include "compiler/common/source.h"
-#include "runtime/base/codes.h"
+#include "runtime/base/error.h"
 #include "runtime/base/nearest.h"
 
 typedef enum tn_severity { TN_NOTE, TN_WARNING, TN_ERROR } tn_severity;
@@ -36,7 +37,7 @@ typedef struct tn_diagnostic {
     bool limit;        /* it says what was not found out since that passes a limit */
     char *help;        /* or NULL */
     char *replacement; /* a text that, put in the span's place, applies the help; or NULL */
-    /* a place in an input that is not a source (a plan file): path and line as text; line 0 where it has none */
+    /* a place in an input that is not a source (a plan file): path and line as text; line 0 if it has none */
     char *input_path;
     uint64_t input_line;
     uint32_t input_column, input_column_end;
@@ -53,9 +54,8 @@ typedef struct tn_diagnostics {
     size_t dropped;     /* past the limit */
     bool failed;        /* out of memory while collecting */
     bool stopped;       /* work ended because nobody wanted it any more: nobody's mistake, and not listed */
-    struct tn_number_ranges
-        *ranges;           /* what checking found of numbers is noted there (number_ranges.h); NULL: nowhere */
-    tn_diagnostic scratch; /* what is past the limit goes here and is forgotten */
+    struct tn_number_ranges *ranges; /* what checking found of numbers is noted there; NULL: nowhere */
+    tn_diagnostic scratch;           /* what is past the limit goes here and is forgotten */
 } tn_diagnostics;
 
 void tn_diagnostics_init(tn_diagnostics *list, tn_sources *sources);
@@ -124,5 +124,29 @@ void tn_diagnostics_show(tn_diagnostics *list, const tn_show_options *options, F
 /* Such an array of one that has no place, where there is no list: for a command that is ended from without. help may
  * be NULL. */
 void tn_diagnostics_show_alone(tn_severity severity, tn_code code, const char *message, const char *help, FILE *out);
+
+/* Between what the numbers of a text may lie, as checking found it out: for whoever shows them as sliders.
+ *
+ * Where a check holds a number to a least or a most, it notes them with the diagnostics of its compilation. The notes
+ * live in the compilation's arena. */
+
+typedef struct tn_number_range {
+    tn_span span;             /* of the number, with or without its sign */
+    const char *least, *most; /* as they would be written; NULL: there is none */
+    struct tn_number_range *next;
+} tn_number_range;
+
+typedef struct tn_number_ranges {
+    tn_arena *arena;
+    tn_number_range *first, *last;
+    size_t count;
+} tn_number_ranges;
+
+/* Notes the least and the most; -INFINITY and INFINITY are none. Does nothing if nobody gathers them; out of memory is
+ * the arena's to remember. */
+void tn_range_note(tn_diagnostics *diagnostics, tn_span span, double least, double most);
+
+/* The same of whole numbers of 64 bits, from 0 on. */
+void tn_range_note_whole64(tn_diagnostics *diagnostics, tn_span span);
 
 #endif

@@ -27,14 +27,14 @@ typedef struct tn_expression {
     uint32_t height; /* numbers that its code holds at once, at most */
 } tn_expression;
 
-/* Constructors. NULL where out of memory, which the arena remembers. */
+/* Constructors. NULL if out of memory, which the arena remembers. */
 tn_expression *tn_expression_number(tn_arena *arena, tn_span span, double number);
 tn_expression *tn_expression_name(tn_arena *arena, tn_span span, const char *name);
 tn_expression *tn_expression_call(tn_arena *arena, tn_span span, const char *name, tn_expression *first);
 tn_expression *tn_expression_of(tn_arena *arena, tn_opcode op, tn_span span, tn_expression *a, tn_expression *b,
                                 tn_expression *c); /* b and c: NULL past the operation's arity */
 
-/* Adds an operand behind the others; nothing where one of both is NULL. */
+/* Adds an operand behind the others; nothing if one of both is NULL. */
 void tn_expression_add(tn_expression *expression, tn_expression *operand);
 
 /* What the expressions of a notation can speak of. */
@@ -66,7 +66,7 @@ tn_status tn_expression_code(const tn_expression *expression, tn_formula *formul
 /* Is it a comparison, or made of some by `and`, `or` and `not`? */
 bool tn_expression_is_condition(const tn_expression *expression);
 
-/* The code of how far the expression, taken for a condition, is from holding: 0 where it holds, else above 0, and no
+/* The code of how far the expression, taken for a condition, is from holding: 0 if it holds, else above 0, and no
  * value where it has none. Of a <= b it is max(0, a - b), of a = b |a - b|, of `and` the sum, of `or` the least; `not`
  * is pushed inward, to the opposite comparisons; a strict comparison that fails, and `!=`, give at least 1e-9. What is
  * no condition holds where it is not 0. For searching, which wants a slope. With `shares`, the distance of a comparison

@@ -14,7 +14,7 @@ typedef struct tn_lexer_pool {
     _Alignas(max_align_t) unsigned char bytes[1024];
 } tn_lexer_pool;
 
-/* NULL where the pool is used up. */
+/* NULL if the pool is used up. */
 void *tn_lexer_pool_take(tn_lexer_pool *pool, size_t size);
 
 /* The allocator of a lexer whose extra data have a `pool`. Growing is only for buffers, which hold all of the text. */
@@ -40,10 +40,10 @@ bool tn_text_check(tn_diagnostics *diagnostics, uint32_t file);
 /* Bytes of the byte order mark that the text starts with: 3 or 0. */
 size_t tn_text_mark(const char *text, size_t size);
 
-/* The value of decimal digits; false (and INT64_MAX) where it does not fit. */
+/* The value of decimal digits; false (and INT64_MAX) if it does not fit. */
 bool tn_integer_read(const char *digits, size_t size, int64_t *value);
 
-/* The value of a text that is decimal digits and nothing else; false where it is not, or does not fit. */
+/* The value of a text that is decimal digits and nothing else; false if it is not, or does not fit. */
 bool tn_whole_read(const char *text, size_t size, uint64_t *value);
 
 /* Reads a length that `span` covers the start of; returns its bytes (0: none). A length that cannot be held is reported
@@ -51,7 +51,7 @@ bool tn_whole_read(const char *text, size_t size, uint64_t *value);
 size_t tn_length_lex(tn_diagnostics *diagnostics, const char *text, size_t size, tn_span span, int64_t *nanometres,
                      bool *broken);
 
-/* What a string says: `text` without its quotes, \" and \\ undone. NULL where out of memory. */
+/* What a string says: `text` without its quotes, \" and \\ undone. NULL if out of memory. */
 char *tn_string_lex(tn_arena *arena, const char *text, size_t size);
 
 /* Reports a character, or a sign of other languages, that no token starts with (E0003). */

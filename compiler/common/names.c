@@ -1,4 +1,4 @@
-/* Keeps names and what they stand for in a hash table. */
+/* Keeps names and what they stand for, in a hash table. */
 #include "compiler/common/names.h"
 
 #include <string.h>
@@ -6,41 +6,54 @@
 
 #include "runtime/module/module.h"
 
-/* The place of a text: its entry, or the free entry where it belongs. At least one entry is free. */
-static tn_name_entry *find(tn_name_entry *entries, size_t capacity, const char *text)
+typedef struct wanted_name {
+    const tn_name_entry *entries;
+    const char *text;
+} wanted_name;
+
+static bool is_wanted(const void *context, uint32_t number)
 {
-    size_t at = (size_t)XXH3_64bits(text, strlen(text)) & (capacity - 1);
-    while (entries[at].text && strcmp(entries[at].text, text) != 0)
-        at = (at + 1) & (capacity - 1);
-    return &entries[at];
+    const wanted_name *w = context;
+    return strcmp(w->entries[number].text, w->text) == 0;
+}
+
+static uint64_t hash_of(const char *text)
+{
+    return XXH3_64bits(text, strlen(text));
 }
 
 void *tn_names_get(const tn_names *names, const char *text)
 {
-    return names->capacity > 0 ? find(names->entries, names->capacity, text)->value : NULL;
+    wanted_name wanted = {names->entries, text};
+    uint32_t number = tn_hash_find(&names->index, hash_of(text), is_wanted, &wanted);
+    return number == TN_HASH_NONE ? NULL : names->entries[number].value;
 }
 
-static int grow(tn_names *names)
+static bool grow(tn_names *names)
 {
-    size_t capacity = names->capacity > 0 ? names->capacity * 2 : 32;
+    size_t capacity = names->capacity > 0 ? names->capacity * 2 : 16;
     tn_name_entry *entries = TN_NEW_ARRAY(names->arena, tn_name_entry, capacity);
     if (!entries)
-        return 0;
-    for (size_t i = 0; i < names->capacity; i++)
-        if (names->entries[i].text)
-            *find(entries, capacity, names->entries[i].text) = names->entries[i];
+        return false;
+    if (names->count)
+        memcpy(entries, names->entries, names->count * sizeof *entries);
     names->entries = entries;
     names->capacity = capacity;
-    return 1;
+    return true;
 }
 
 void tn_names_put(tn_names *names, const char *text, void *value)
 {
-    if (names->count + 1 > names->capacity / 2 && !grow(names))
+    if (names->count == names->capacity && !grow(names))
         return;
-    tn_name_entry *entry = find(names->entries, names->capacity, text);
-    names->count += entry->text == NULL;
-    *entry = (tn_name_entry){text, value};
+    uint32_t number = (uint32_t)names->count;
+    wanted_name wanted = {names->entries, text};
+    names->index.make = tn_arena_make;
+    names->index.from = names->arena;
+    if (tn_hash_enter(&names->index, hash_of(text), is_wanted, &wanted, &number, NULL) != TN_OK)
+        return;
+    names->count += number == names->count;
+    names->entries[number] = (tn_name_entry){text, value};
 }
 
 bool tn_name_fits(tn_diagnostics *diagnostics, const char *name, tn_span span)

@@ -1,14 +1,13 @@
 /* What a notation is: a row of compiler/notations.def and a front end, which its folder gives as one constant.
  *
- * A front end reads a text for its tokens, compiles it, lays it out and lists what it has. compiler/notation.h has the
+ * A front end reads a text for its tokens, compiles it, lays it out and lists what it has. compiler/compile.h has the
  * table.
  */
 #ifndef TARTAN_COMPILER_COMMON_NOTATION_H
 #define TARTAN_COMPILER_COMMON_NOTATION_H
 
 #include "compiler/common/compilation.h"
-#include "compiler/common/format_tokens.h"
-#include "compiler/common/listing.h"
+#include "compiler/common/layout.h"
 #include "compiler/common/token.h"
 #include "compiler/common/words.h"
 #include "runtime/module/module.h"

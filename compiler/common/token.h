@@ -38,4 +38,48 @@ typedef struct tn_tokens {
  * arena. */
 void tn_token_add(tn_tokens *tokens, tn_token_kind kind, tn_span span);
 
+/* What a text has, from its tokens, so that an editor can list it also while it is being typed. */
+
+typedef enum tn_listing_kind {
+    TN_LISTING_RULE,
+    TN_LISTING_SETTING,
+    TN_LISTING_CONSTANT,
+    TN_LISTING_BLOCK, /* what is `inside` comes after it */
+} tn_listing_kind;
+
+typedef struct tn_listing_entry {
+    tn_listing_kind kind;
+    bool inside;    /* the block before it */
+    tn_span name;   /* what it is called */
+    tn_span whole;  /* all of it */
+    tn_span detail; /* what is said of it, on the line of its name; empty: nothing */
+} tn_listing_entry;
+
+/* Lives in the arena, which remembers where memory ran out. */
+typedef struct tn_listing {
+    tn_arena *arena;
+    const char *text;
+    const tn_token *tokens; /* without comments */
+    size_t count;
+    tn_listing_entry *entries;
+    size_t entry_count, capacity;
+    tn_listing_entry forgotten; /* for which there was no memory */
+} tn_listing;
+
+/* Makes a listing of a text's tokens, with no entries yet. False if out of memory. */
+bool tn_listing_start(tn_listing *listing, const char *text, const tn_tokens *tokens);
+
+/* Is token i this, in capitals or not? */
+bool tn_listing_is(const tn_listing *listing, size_t i, const char *text);
+
+/* The next line end from token i on, or `last`. */
+size_t tn_listing_line_end(const tn_listing *listing, size_t i, size_t last);
+
+/* From the first to the last of tokens [first, last). */
+tn_span tn_listing_span(const tn_listing *listing, size_t first, size_t last);
+
+/* Adds an entry: tokens [first, named) are its name, the rest up to `last` its detail. Never NULL: where memory runs
+ * out, one that is forgotten. Valid until the next is added. */
+tn_listing_entry *tn_listing_add(tn_listing *listing, tn_listing_kind kind, size_t first, size_t named, size_t last);
+
 #endif

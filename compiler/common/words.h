@@ -48,7 +48,7 @@ typedef struct tn_vocabulary {
 } tn_vocabulary;
 
 /* The row of the word that is `text`, in capitals or not, stands in one of the places and is one of the uses there; the
- * first of several. NULL where there is none. */
+ * first of several. NULL if there is none. */
 const tn_vocabulary_word *tn_vocabulary_find(const tn_vocabulary *words, const char *text, size_t size, uint64_t places,
                                              uint32_t uses);
 

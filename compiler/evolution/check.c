@@ -4,8 +4,8 @@
 #include <string.h>
 #include <strings.h>
 
+#include "compiler/common/diagnostic.h"
 #include "compiler/common/lexical.h"
-#include "compiler/common/number_ranges.h"
 #include "compiler/evolution/evolution.h"
 #include "runtime/base/nearest.h"
 

@@ -1,12 +1,11 @@
-/* Compiles .study files with an evolution block: its settings, and the grammar that it names; and the front end that
- * the table of notations names. */
+/* The front end of .study files with an evolution block: makes the syntax tree, as the parser asks; and compiles the
+ * settings and the grammar that they name. */
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 #include "compiler/bnf/ast.h"
 #include "compiler/bnf/bnf.h"
-#include "compiler/common/emit_sources.h"
 #include "compiler/common/import.h"
 #include "compiler/common/lexical.h"
 #include "compiler/common/notation.h"
@@ -15,6 +14,88 @@
 #include "compiler/study/study.h"
 #include "runtime/base/file.h"
 #include "runtime/number/data.h"
+
+/* ==== makes the syntax tree of evolution blocks: what the parser calls */
+
+void tn_evolution_block(tn_evolution_reader *reader, tn_span head)
+{
+    reader->open = head;
+    if (reader->blocks++) {
+        tn_diagnostic *diagnostic =
+            tn_report(reader->diagnostics, E_EVOLUTION_SYNTAX, head, "a study has one evolution block");
+        tn_note(reader->diagnostics, diagnostic, &reader->head, "the first is here");
+        return;
+    }
+    reader->head = head;
+}
+
+void tn_evolution_outside(tn_evolution_reader *reader, tn_span span)
+{
+    if (reader->outside.end == 0)
+        reader->outside = span;
+}
+
+void tn_evolution_setting_new(tn_evolution_reader *reader, tn_span span, tn_evolution_text name,
+                              tn_evolution_value *values)
+{
+    tn_evolution_setting *setting = TN_NEW(reader->arena, tn_evolution_setting);
+    char *copy = tn_arena_copy(reader->arena, name.text, name.length);
+    if (!setting || !copy)
+        return;
+    setting->name = copy;
+    setting->span = span;
+    setting->values = values;
+    TN_CHAIN(reader, setting);
+}
+
+tn_evolution_value *tn_evolution_value_new(tn_evolution_reader *reader, tn_evolution_value_kind kind, tn_span span,
+                                           tn_evolution_text text)
+{
+    tn_evolution_value *value = TN_NEW(reader->arena, tn_evolution_value);
+    char *copy = kind == TN_EVOLUTION_STRING ? tn_string_lex(reader->arena, text.text + 1, text.length - 2)
+                                             : tn_arena_copy(reader->arena, text.text, text.length);
+    if (!value || !copy)
+        return NULL;
+    value->kind = kind;
+    value->span = span;
+    value->text = copy;
+    value->last = value;
+    return value;
+}
+
+tn_evolution_value *tn_evolution_value_add(tn_evolution_value *list, tn_evolution_value *value)
+{
+    if (!list || !value)
+        return list ? list : value;
+    list->last->next = value;
+    list->last = value;
+    return list;
+}
+
+void tn_evolution_unexpected(tn_evolution_reader *reader, tn_span span, const char *token)
+{
+    tn_diagnostic *diagnostic =
+        tn_report(reader->diagnostics, E_EVOLUTION_SYNTAX, span, "%s does not belong here", token);
+    tn_help(reader->diagnostics, diagnostic, "write one setting a line, as `population 500`");
+}
+
+void tn_evolution_unclosed_text(tn_evolution_reader *reader, tn_span span)
+{
+    tn_diagnostic *diagnostic =
+        tn_report(reader->diagnostics, E_EVOLUTION_SYNTAX, span, "this text has no closing quote");
+    tn_help(reader->diagnostics, diagnostic, "a text ends with `\"` on the line that it begins on");
+}
+
+void tn_evolution_unclosed_block(tn_evolution_reader *reader, tn_span span)
+{
+    tn_diagnostic *diagnostic =
+        tn_report(reader->diagnostics, E_EVOLUTION_SYNTAX, span, "the evolution block is not closed");
+    tn_note(reader->diagnostics, diagnostic, &reader->open, "it begins here");
+    tn_help(reader->diagnostics, diagnostic, "write `}` after the last setting");
+}
+
+/* ==== compiles .study files with an evolution block: its settings, and the grammar that it names; and the front end
+ * that the table of notations names */
 
 #define DATA_BYTES_MAX ((size_t)256 << 20)
 

@@ -82,11 +82,11 @@ void tn_evolution_unclosed_block(tn_evolution_reader *reader, tn_span span);
 /* ---- checking */
 
 /* Only the settings, from a study's text: its grammar is not looked for. Texts of the study live in the arena. False
- * where there are errors. */
+ * if there are errors. */
 bool tn_evolution_settings_read(tn_sources *sources, uint32_t file, tn_diagnostics *diagnostics, tn_arena *arena,
                                 tn_evolution_study *study);
 
-/* What the settings mean, but for the grammar's file. False where there are errors. */
+/* What the settings mean, but for the grammar's file. False if there are errors. */
 bool tn_evolution_check(const tn_evolution_reader *reader, tn_evolution_study *study);
 
 #endif

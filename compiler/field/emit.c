@@ -2,8 +2,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "compiler/common/emit_sources.h"
-#include "compiler/common/number_ranges.h"
+#include "compiler/common/diagnostic.h"
+#include "compiler/common/import.h"
 #include "compiler/field/field.h"
 #include "runtime/number/interval.h"
 #include "runtime/number/run.h"

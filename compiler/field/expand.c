@@ -40,29 +40,27 @@ static bool same(const tn_field_node *a, const tn_field_node *b)
            tn_bits_of(a->number) == tn_bits_of(b->number);
 }
 
-static void enter(tn_field_nodes *nodes, uint32_t index)
+typedef struct wanted_node {
+    const tn_field_nodes *nodes;
+    const tn_field_node *node;
+} wanted_node;
+
+static bool is_wanted(const void *context, uint32_t number)
 {
-    uint32_t slot = (uint32_t)hash(&nodes->items[index]) & (nodes->table_size - 1);
-    while (nodes->table[slot])
-        slot = (slot + 1) & (nodes->table_size - 1);
-    nodes->table[slot] = index + 1;
+    const wanted_node *w = context;
+    return same(&w->nodes->items[number], w->node);
 }
 
 static bool grow(tn_field_nodes *nodes)
 {
     uint32_t capacity = nodes->capacity ? nodes->capacity * 2 : 256;
     tn_field_node *items = TN_NEW_ARRAY(nodes->arena, tn_field_node, capacity);
-    uint32_t *table = TN_NEW_ARRAY(nodes->arena, uint32_t, 4 * (size_t)capacity);
-    if (!items || !table)
+    if (!items)
         return false;
     if (nodes->count)
         memcpy(items, nodes->items, nodes->count * sizeof *items);
     nodes->items = items;
     nodes->capacity = capacity;
-    nodes->table = table;
-    nodes->table_size = 4 * capacity;
-    for (uint32_t i = 0; i < nodes->count; i++)
-        enter(nodes, i);
     return true;
 }
 
@@ -71,17 +69,21 @@ static uint32_t find(tn_field_nodes *nodes, const tn_field_node *node)
 {
     if (nodes->count == nodes->capacity && !grow(nodes))
         return 0;
-    uint32_t slot = (uint32_t)hash(node) & (nodes->table_size - 1);
-    for (; nodes->table[slot]; slot = (slot + 1) & (nodes->table_size - 1))
-        if (same(&nodes->items[nodes->table[slot] - 1], node))
-            return nodes->table[slot] - 1;
+    uint32_t number = nodes->count;
+    wanted_node wanted = {nodes, node};
+    nodes->index.make = tn_arena_make;
+    nodes->index.from = nodes->arena;
     if (nodes->count == TN_FIELD_NODES_MAX) {
-        nodes->fits = TN_FIELD_TOO_LARGE;
-        return 0;
+        number = tn_hash_find(&nodes->index, hash(node), is_wanted, &wanted);
+        if (number == TN_HASH_NONE)
+            nodes->fits = TN_FIELD_TOO_LARGE;
+        return number == TN_HASH_NONE ? 0 : number;
     }
-    nodes->items[nodes->count] = *node;
-    nodes->table[slot] = ++nodes->count;
-    return nodes->count - 1;
+    if (tn_hash_enter(&nodes->index, hash(node), is_wanted, &wanted, &number, NULL) != TN_OK)
+        return 0;
+    if (number == nodes->count)
+        nodes->items[nodes->count++] = *node;
+    return number;
 }
 
 static uint32_t number(tn_field_nodes *nodes, double value)

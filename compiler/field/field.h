@@ -7,11 +7,12 @@
 #define TARTAN_COMPILER_FIELD_FIELD_H
 
 #include "compiler/common/expression.h"
-#include "compiler/common/format_tokens.h"
 #include "compiler/common/import.h"
-#include "compiler/common/listing.h"
+#include "compiler/common/layout.h"
+#include "compiler/common/token.h"
 #include "compiler/common/words.h"
 #include "compiler/hemls/hemls.h"
+#include "runtime/base/hash_table.h"
 
 typedef enum tn_field_statement { TN_FIELD_LET, TN_FIELD_FUNCTION, TN_FIELD_SURFACE } tn_field_statement;
 
@@ -79,12 +80,9 @@ typedef struct tn_field_file {
 /* Parses the source as a .field file; as tn_parse_hemls. */
 tn_field_file *tn_parse_field(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, tn_tokens *tokens);
 
-/* The lexer, for its parser: NULL where out of memory. */
+/* The lexer, for its parser: NULL if out of memory. */
 void *tn_field_lexer_new(tn_growth_parse *parse);
 void tn_field_lexer_free(void *scanner);
-
-/* Does a statement start with this word? */
-bool tn_field_heads(const char *text, size_t size);
 
 /* Constructors; out of memory is the arena's to remember. */
 tn_field_parameters tn_field_parameter_add(tn_growth_parse *parse, tn_field_parameters list, tn_field_text name);
@@ -135,8 +133,7 @@ typedef struct tn_field_nodes {
     const tn_checked_fields *checked;
     tn_field_node *items;
     uint32_t count, capacity;
-    uint32_t *table; /* by what they are; 0: free, else one more than the index */
-    uint32_t table_size;
+    tn_hash_table index; /* by what they are; in the arena */
     uint64_t steps;
     const char *const *mesh_paths; /* that distances are measured from, each once */
     uint32_t mesh_count;
@@ -150,9 +147,6 @@ uint32_t tn_field_expand(tn_field_nodes *nodes, const tn_expression *expression)
 /* TN_OK, TN_INVALID (in the diagnostics) or TN_MEMORY. */
 tn_status tn_emit_field(tn_builder *builder, tn_arena *arena, tn_diagnostics *diagnostics,
                         const tn_checked_fields *checked, tn_error *error);
-
-void tn_format_field(tn_format *format);
-void tn_field_list(tn_listing *listing);
 
 /* ---- words: sets of the places of words.def, as TN_FIELD_AT(FORMULA) */
 

@@ -9,11 +9,11 @@
 
 #include "compiler/common/arena.h"
 #include "compiler/common/diagnostic.h"
-#include "compiler/common/format_tokens.h"
+#include "compiler/common/layout.h"
 #include "compiler/common/lexical.h"
 #include "compiler/common/token.h"
 #include "compiler/common/words.h"
-#include "runtime/growth/model/records.h"
+#include "runtime/growth/model/system.h"
 #include "runtime/module/builder.h"
 #include "runtime/module/code.h"
 
@@ -116,17 +116,17 @@ typedef struct tn_growth_parse {
     tn_lexer_pool pool;
 } tn_growth_parse;
 
-/* The lexers, for their parsers: NULL where out of memory. */
+/* The lexers, for their parsers: NULL if out of memory. */
 void *tn_hemls_lexer_new(tn_growth_parse *parse);
 void tn_hemls_lexer_free(void *scanner);
 void *tn_study_lexer_new(tn_growth_parse *parse);
 void tn_study_lexer_free(void *scanner);
 
-/* Parses the source as a .hemls file. NULL where out of memory; errors are in the diagnostics. Its tokens go to
+/* Parses the source as a .hemls file. NULL if out of memory; errors are in the diagnostics. Its tokens go to
  * `tokens` where that is not NULL. */
 tn_hemls_file *tn_parse_hemls(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, tn_tokens *tokens);
 
-/* Constructors; NULL where out of memory. */
+/* Constructors; NULL if out of memory. */
 tn_hemls_symbol *tn_hemls_symbol_new(tn_growth_parse *parse, tn_hemls_kind kind, tn_span span);
 tn_hemls_symbols tn_hemls_symbols_add(tn_hemls_symbols list, tn_hemls_symbol *symbol);
 tn_hemls_alternative *tn_hemls_alternative_new(tn_growth_parse *parse, tn_span span, tn_hemls_symbols symbols,
@@ -144,7 +144,7 @@ bool tn_growth_readable(tn_growth_parse *parse);
 /* Moves on to a token of `size` bytes; its place in *span. */
 void tn_growth_place(tn_growth_parse *parse, tn_span *span, size_t size);
 
-/* A decimal number; an error (E0005) where it is too large. */
+/* A decimal number; an error (E0005) if it is too large. */
 tn_decimal tn_growth_number(tn_growth_parse *parse, tn_span span);
 
 /* A whole number of 64 bits, exactly; the value is -1 where it is none. */
@@ -156,9 +156,6 @@ void tn_growth_stray(tn_growth_parse *parse, tn_span span, const char *help);
 /* Reports E0001: what was found, what could have stood there. */
 void tn_growth_syntax_error(tn_growth_parse *parse, tn_span span, const char *found, const char *const *expected,
                             size_t count, const char *help);
-
-/* Lays out a .hemls file. */
-void tn_format_hemls(tn_format *format);
 
 /* ---- meaning */
 
@@ -229,7 +226,7 @@ tn_instruction tn_hemls_move(const tn_hemls_symbol *symbol, double angle);
 bool tn_hemls_check_successor(tn_arena *arena, tn_diagnostics *diagnostics, double angle,
                               tn_checked_successor *checked);
 
-/* Checks a file; NULL where there were errors (which are in the diagnostics) or no memory. */
+/* Checks a file; NULL if there were errors (which are in the diagnostics) or no memory. */
 tn_checked_growth *tn_check_hemls(tn_arena *arena, tn_diagnostics *diagnostics, const tn_hemls_file *file,
                                   uint32_t source);
 

@@ -1,11 +1,11 @@
 /* Turns a successor's symbols into moves of the turtle, and puts what the turtle finds wrong with them into words at
- * their places. The turtle itself is the runtime's (runtime/growth/model/turtle.h): what it accepts here, the verifier
+ * their places. The turtle itself is the runtime's (runtime/growth/model/system.h): what it accepts here, the verifier
  * accepts in the module. */
 #include <stdarg.h>
 #include <stdio.h>
 
 #include "compiler/hemls/hemls.h"
-#include "runtime/growth/model/turtle.h"
+#include "runtime/growth/model/system.h"
 
 /* A turn to the right is one to the left by a negative angle. */
 static tn_instruction turn_of(char sign, double angle)

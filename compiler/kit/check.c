@@ -3,7 +3,7 @@
 
 #include "compiler/kit/kit.h"
 
-/* Puts a definition under its name; false where that has one already. */
+/* Puts a definition under its name; false if that has one already. */
 static bool define(tn_kit *kit, tn_names *names, const tn_kit_node *node, const char *what, void *value)
 {
     const tn_kit_text *name = &node->name;
@@ -208,7 +208,7 @@ static void check_all(tn_kit *kit, const tn_kit_file *own)
         tn_kit_check_rule(kit, rule);
     for (tn_kit_model *model = kit->model_list.first; model; model = model->next)
         tn_kit_check_model(kit, model);
-    kit->masks_placed = kit->mask_count;
+    kit->voxels_placed = kit->voxels_count;
     for (const tn_kit_node *node = own->first; node; node = node->next) {
         if (node->kind == TN_KIT_TEST)
             tn_kit_check_test(kit, node);

@@ -1,7 +1,170 @@
-/* Compiles .kit files and what they use; and the front end that the table of notations names. */
-#include "compiler/common/emit_sources.h"
+/* The front end of .kit files: makes the syntax tree, as the parser asks; lays files out, lists what they have, and
+ * compiles them and what they use. */
+#include "compiler/common/import.h"
+#include "compiler/common/layout.h"
 #include "compiler/common/notation.h"
 #include "compiler/kit/kit.h"
+
+/* ---- makes the syntax tree of .kit files: what the parser calls */
+
+tn_kit_node *tn_kit_node_new(tn_growth_parse *parse, tn_kit_kind kind, tn_span span, tn_kit_text name)
+{
+    tn_kit_node *node = TN_NEW(parse->arena, tn_kit_node);
+    if (node) {
+        node->kind = kind;
+        node->span = span;
+        node->name = name;
+        node->depth = 1;
+    }
+    return node;
+}
+
+tn_kit_nodes tn_kit_nodes_add(tn_kit_nodes list, tn_kit_node *node)
+{
+    TN_CHAIN(&list, node);
+    return list;
+}
+
+tn_kit_node *tn_kit_space_of(tn_growth_parse *parse, tn_kit_kind kind, tn_span span, tn_kit_node *a, tn_kit_node *b)
+{
+    tn_kit_node *node = tn_kit_node_new(parse, kind, span, (tn_kit_text){0});
+    if (!node || !a)
+        return NULL;
+    node->inner = tn_kit_nodes_add(tn_kit_nodes_add((tn_kit_nodes){0}, a), b);
+    node->depth = 1 + (b && b->depth > a->depth ? b->depth : a->depth);
+    return node;
+}
+
+void tn_kit_add(tn_growth_parse *parse, tn_kit_node *node)
+{
+    tn_kit_file *file = parse->result;
+    TN_CHAIN(file, node);
+}
+
+void tn_kit_add_use(tn_growth_parse *parse, tn_kit_text path)
+{
+    tn_kit_file *file = parse->result;
+    tn_kit_use *use = TN_NEW(parse->arena, tn_kit_use);
+    if (use)
+        use->path = path;
+    TN_CHAIN(&file->uses, use);
+}
+
+void tn_kit_lost(tn_growth_parse *parse)
+{
+    tn_kit_file *file = parse->result;
+    file->damaged = true;
+}
+
+/* ---- laying out .kit files: a statement a line; one that is too long goes on where its next part begins */
+
+/* box( and count(. */
+static bool is_call(const tn_format *format, size_t i)
+{
+    return tn_format_is(format, i, "(") && (format->tokens[i - 1].kind == TN_TOKEN_NAME ||
+                                            tn_format_is_word(format, i - 1, &tn_kit_words, TN_ANYWHERE, TN_AS_CALL));
+}
+
+/* Does the brace at i, or the one that ends there, hold statements and not parts? */
+static bool is_block(const tn_format *format, size_t i)
+{
+    size_t open = tn_format_is(format, i, "}") ? format->tokens[i].match : i;
+    while (open > 0 && !tn_format_is(format, open - 1, ";") && !tn_format_is(format, open - 1, "}"))
+        open--;
+    return tn_vocabulary_head_block(&tn_kit_words, format->tokens[open].text, format->tokens[open].size);
+}
+
+/* Behind the brace that opens a list of parts, or before the one that closes it. */
+static bool is_brace(const tn_format *format, size_t i)
+{
+    return (tn_format_is(format, i, "}") && !is_block(format, i)) ||
+           (tn_format_is(format, i - 1, "{") && !is_block(format, i - 1));
+}
+
+static size_t gap_before(const tn_format *format, size_t i)
+{
+    bool tight = tn_format_is(format, i, ")") || tn_format_is(format, i, ",") || tn_format_is(format, i, ";") ||
+                 tn_format_is(format, i - 1, "(") || tn_format_is_minus_sign(format, i - 1) ||
+                 tn_format_is(format, i, "..") || tn_format_is(format, i - 1, "..") || is_call(format, i) ||
+                 is_brace(format, i) || (tn_format_is(format, i, "]") || tn_format_is(format, i - 1, "["));
+    return tight ? 0 : 1;
+}
+
+/* The bracket that begins in the statement of token i and holds it, or i where there is none. */
+static size_t bracket_around(const tn_format *format, size_t i)
+{
+    int depth = 0;
+    for (size_t k = i; k > 0 && !tn_format_is(format, k - 1, ";"); k--) {
+        bool opens = tn_format_is(format, k - 1, "(") || tn_format_is(format, k - 1, "{");
+        if (tn_format_is(format, k - 1, "{") && is_block(format, k - 1))
+            return i;
+        depth += opens;
+        depth -= tn_format_is(format, k - 1, ")") || tn_format_is(format, k - 1, "}");
+        if (depth > 0)
+            return k - 1;
+    }
+    return i;
+}
+
+/* Where a statement that is too long goes on in the next line. */
+static bool at_part(const tn_format *format, size_t i)
+{
+    bool behind_comma = i > 0 && tn_format_is(format, i - 1, ",");
+    size_t around = bracket_around(format, i);
+    if (around != i)
+        return behind_comma && tn_format_is(format, around, "{"); /* a list of parts */
+    return behind_comma || tn_format_is(format, i, "|") || tn_format_is(format, i, "by") ||
+           tn_format_is_word(format, i, &tn_kit_words, TN_KIT_AT(SPACE), TN_AS_INFIX);
+}
+
+static bool ends_statement(const tn_format *format, size_t i)
+{
+    return tn_format_is(format, i, ";") ||
+           ((tn_format_is(format, i, "{") || tn_format_is(format, i, "}")) && is_block(format, i));
+}
+
+static void format_kit(tn_format *format)
+{
+    tn_format_statements(format, &(tn_statement_format){gap_before, at_part, ends_statement});
+}
+
+/* ---- lists what a .kit file has: its definitions, and in models and parts what they say */
+
+static bool is_any(const tn_listing *listing, size_t i, const char *const *words)
+{
+    for (; *words; words++)
+        if (tn_listing_is(listing, i, *words))
+            return true;
+    return false;
+}
+
+static size_t end_of(const tn_listing *listing, size_t i, const char *const *ends)
+{
+    while (i < listing->count && !is_any(listing, i, ends))
+        i++;
+    return i;
+}
+
+static void kit_list(tn_listing *listing)
+{
+    static const char *const line_ends[] = {";", NULL}, *const block_ends[] = {"}", NULL};
+    for (size_t i = 0, end; i < listing->count; i = end + 1) {
+        const char *word = listing->text + listing->tokens[i].span.begin;
+        size_t size = listing->tokens[i].span.end - listing->tokens[i].span.begin;
+        bool block = tn_vocabulary_head_block(&tn_kit_words, word, size);
+        bool line = tn_vocabulary_find(&tn_kit_words, word, size, TN_KIT_AT(STATEMENT), TN_AS_HEAD) != NULL;
+        end = end_of(listing, i, block ? block_ends : line_ends);
+        if (i + 1 >= listing->count || (!block && !line))
+            continue;
+        tn_listing_kind kind = block                               ? TN_LISTING_BLOCK
+                               : tn_listing_is(listing, i, "rule") ? TN_LISTING_RULE
+                                                                   : TN_LISTING_CONSTANT;
+        size_t last = end < listing->count ? end + 1 : end;
+        tn_listing_add(listing, kind, i + 1, i + 2, block ? i + 2 : end)->whole = tn_listing_span(listing, i, last);
+    }
+}
+
+/* ---- compiles .kit files and what they use; and the front end that the table of notations names */
 
 static const char kit_files[] = ".kit";
 
@@ -107,9 +270,9 @@ const tn_front tn_front_kit = {
     .read = read,
     .compile = compile,
     .made = made,
-    .list = tn_kit_list,
+    .list = kit_list,
     .words = &tn_kit_words,
-    .lay_out = tn_format_kit,
+    .lay_out = format_kit,
     .spell = tn_format_small_letters,
     .nests = true,
 };

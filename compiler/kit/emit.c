@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compiler/common/emit_sources.h"
+#include "compiler/common/import.h"
 #include "compiler/kit/kit.h"
 
 /* A symbol of the grammar, whose productions are written when its turn comes. */
@@ -451,10 +451,10 @@ static void emit_part(emitting *e, const tn_kit_part *part)
     for (uint32_t i = 0; i < part->slope_count; i++) {
         const tn_kit_slope *slope = &part->slopes[i];
         const tn_kit_box *box = &slope->whole;
-        tn_builder_add_PART_SLOPE(
-            b, &(tn_part_slope_record){box->low[0], box->low[1], box->low[2], box->high[0], box->high[1], box->high[2],
-                                       slope->sides[0], slope->sides[1], record.box_first + slope->first,
-                                       slope->count});
+        tn_builder_add_PART_SLOPE(b,
+                                  &(tn_part_slope_record){box->low[0], box->low[1], box->low[2], box->high[0],
+                                                          box->high[1], box->high[2], slope->sides[0], slope->sides[1],
+                                                          record.box_first + slope->first, slope->count});
     }
     for (uint32_t i = 0; i < part->joint_count; i++) {
         const tn_kit_joint *joint = &part->joints[i];
@@ -464,14 +464,15 @@ static void emit_part(emitting *e, const tn_kit_part *part)
     tn_builder_add_KIT_PART(b, &record);
 }
 
-static void emit_mask(emitting *e, const tn_kit_mask *mask)
+static void emit_voxels(emitting *e, const tn_kit_voxels *voxels)
 {
-    tn_builder_add_KIT_MASK(
-        e->builder,
-        &(tn_kit_mask_record){mask->low[0], mask->low[1], mask->low[2], mask->size[0], mask->size[1], mask->size[2],
-                              (uint32_t)tn_builder_count(e->builder, TN_SECTION_MASK_WORD), (uint32_t)mask->words});
-    for (size_t i = 0; i < mask->words; i++)
-        tn_builder_add_MASK_WORD(e->builder, &(tn_mask_word_record){mask->bits[i]});
+    tn_builder_add_KIT_MASK(e->builder,
+                            &(tn_kit_mask_record){voxels->low[0], voxels->low[1], voxels->low[2], voxels->size[0],
+                                                  voxels->size[1], voxels->size[2],
+                                                  (uint32_t)tn_builder_count(e->builder, TN_SECTION_MASK_WORD),
+                                                  (uint32_t)voxels->words});
+    for (size_t i = 0; i < voxels->words; i++)
+        tn_builder_add_MASK_WORD(e->builder, &(tn_mask_word_record){voxels->bits[i]});
 }
 
 static void emit_records(emitting *e, tn_kit_record record)
@@ -485,9 +486,9 @@ static void emit_records(emitting *e, tn_kit_record record)
     }
     for (const tn_kit_part *part = e->kit->part_list.first; part; part = part->next)
         emit_part(e, part);
-    for (const tn_kit_mask *mask = e->kit->mask_list.first; mask; mask = mask->next)
-        if (!mask->wrong && mask->index < e->kit->masks_placed)
-            emit_mask(e, mask);
+    for (const tn_kit_voxels *voxels = e->kit->voxels_list.first; voxels; voxels = voxels->next)
+        if (!voxels->wrong && voxels->index < e->kit->voxels_placed)
+            emit_voxels(e, voxels);
     for (uint32_t i = 0; i < e->kit->counted_count; i++)
         tn_builder_add_COUNTED(b, &(tn_counted_record){tn_builder_string(b, e->kit->counted[i])});
     record.type_count = (uint32_t)tn_builder_count(b, TN_SECTION_CONNECTOR_TYPE);

@@ -5,12 +5,153 @@
 #ifndef TARTAN_COMPILER_KIT_KIT_H
 #define TARTAN_COMPILER_KIT_KIT_H
 
-#include "compiler/common/listing.h"
+#include "compiler/common/expression.h"
+#include "compiler/common/import.h"
 #include "compiler/common/names.h"
-#include "compiler/kit/ast.h"
+#include "compiler/common/token.h"
+#include "compiler/common/words.h"
+#include "compiler/hemls/hemls.h"
 #include "runtime/place/model/frame.h"
 #include "runtime/place/model/terms.h"
 #include "runtime/place/part_file.h"
+
+/* The syntax tree of .kit files: parts with connectors, and what is placed of them (docs/kit-language.md).
+ *
+ * Everything that a kit says is a node; which of a node's members say something, its kind tells. Nodes live in the
+ * compilation's arena, which remembers where memory ran out. */
+
+typedef struct tn_kit_text {
+    const char *text; /* NULL: none */
+    tn_span span;
+} tn_kit_text;
+
+/* A number with the name of what it counts: `4 studs`. */
+typedef struct tn_kit_length {
+    tn_span digits; /* without the sign */
+    tn_span span;
+    bool negative;
+    tn_kit_text unit; /* LDU where there is none */
+} tn_kit_length;
+
+typedef struct tn_kit_vector {
+    tn_kit_length at[3];
+    tn_span span;
+    bool given;
+} tn_kit_vector;
+
+typedef enum tn_kit_kind {
+    /* of a file */
+    TN_KIT_UNIT,      /* size, count[0]: turns */
+    TN_KIT_LENGTH,    /* name, size[0] */
+    TN_KIT_CONNECTOR, /* name, other: what it joins, count[0]: turns, size[0]: distance in a grid */
+    TN_KIT_PART,      /* name, doc, inner: FILL, HAS, MASS, PRICE; outer: `from ldraw`, other: a file, or none */
+    TN_KIT_SPACE,     /* name, inner: one of a space */
+    TN_KIT_RULE,      /* name, outer: NAMED connectors, inner: PLACES and DRAWN */
+    TN_KIT_MODEL,     /* name, doc, inner: INSIDE, START, COLOUR, REQUIRES and what follows these */
+    TN_KIT_TEST,      /* name: of a model, inner: CONDITION */
+    /* of a part */
+    TN_KIT_FILL,  /* size, at; of a slope doc: the word, name, other: the sides between which it is */
+    TN_KIT_HAS,   /* name: of a connector, other: its axis, count: of a grid, at */
+    TN_KIT_MASS,  /* count[0] */
+    TN_KIT_PRICE, /* count[0] */
+    /* of a space */
+    TN_KIT_SHAPE, /* name, inner: LENGTH */
+    TN_KIT_FILED, /* name, doc: a file, other: the axis that is up; inner: LENGTH, perhaps none */
+    TN_KIT_NAMED, /* name */
+    TN_KIT_BOTH,
+    TN_KIT_EITHER,
+    TN_KIT_NOT,
+    TN_KIT_MOVED,    /* inner: one, at */
+    TN_KIT_TURNED,   /* inner: one, count[0] */
+    TN_KIT_REPEATED, /* inner: one, count[0], at */
+    /* of a rule */
+    TN_KIT_DRAWN,  /* inner: PLACES with weights */
+    TN_KIT_PLACES, /* inner: PLACED, perhaps none; count[0]: weight */
+    TN_KIT_PLACED, /* name: of a part; count[0]: colour; outer: NAMED rules to go on with; stops; at; count[1]: turns */
+    /* of a model */
+    TN_KIT_INSIDE,    /* inner: one of a space */
+    TN_KIT_START,     /* name: of a connector, doc: its axis, at, count[0]: turns, other: a rule */
+    TN_KIT_STANDS,    /* doc: a file, other: a rule */
+    TN_KIT_COLOUR,    /* count[0] */
+    TN_KIT_REQUIRES,  /* inner: CONDITION */
+    TN_KIT_MINIMIZES, /* inner: one CONDITION, which is a number */
+    TN_KIT_MAXIMIZES,
+    TN_KIT_SEARCHES, /* name, count[0] */
+    TN_KIT_REPEATS,  /* count[0]: turns; or name: mirror, other: an axis */
+    TN_KIT_ORDERS,   /* name */
+    TN_KIT_STEPS,    /* name, or count[0] */
+    TN_KIT_STOCKS,   /* inner: STOCKED */
+    TN_KIT_STOCKED,  /* name: of a part, count[0] */
+    TN_KIT_CONDITION /* expression */
+} tn_kit_kind;
+
+typedef struct tn_kit_node tn_kit_node;
+
+typedef struct tn_kit_nodes {
+    tn_kit_node *first, *last;
+} tn_kit_nodes;
+
+struct tn_kit_node {
+    tn_kit_kind kind;
+    tn_span span;
+    tn_kit_text name, doc, other;
+    tn_kit_length size[3];
+    tn_kit_length count[2]; /* plain numbers; not given where their span is empty */
+    tn_kit_vector at;
+    bool stops;
+    uint32_t depth; /* of what it is in a space */
+    tn_kit_nodes inner, outer;
+    tn_expression *expression;
+    tn_kit_node *next;
+};
+
+typedef struct tn_kit_use {
+    tn_kit_text path;
+    struct tn_kit_use *next;
+} tn_kit_use;
+
+typedef struct tn_kit_file {
+    tn_kit_node *first, *last;
+    struct {
+        tn_kit_use *first, *last;
+    } uses;
+    bool damaged; /* something is missing because of errors already reported */
+} tn_kit_file;
+
+/* Parses the source as a .kit file. NULL if out of memory; errors are in the diagnostics. Its tokens go to `tokens`
+ * where that is not NULL. */
+tn_kit_file *tn_parse_kit(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, tn_tokens *tokens);
+
+/* The same for conditions alone, which become a test without a name. */
+tn_kit_file *tn_parse_kit_conditions(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file);
+
+void *tn_kit_lexer_new(tn_growth_parse *parse);
+void tn_kit_lexer_free(void *scanner);
+
+/* Constructors. */
+tn_kit_node *tn_kit_node_new(tn_growth_parse *parse, tn_kit_kind kind, tn_span span, tn_kit_text name);
+tn_kit_nodes tn_kit_nodes_add(tn_kit_nodes list, tn_kit_node *node);
+tn_kit_node *tn_kit_space_of(tn_growth_parse *parse, tn_kit_kind kind, tn_span span, tn_kit_node *a, tn_kit_node *b);
+void tn_kit_add(tn_growth_parse *parse, tn_kit_node *node);
+void tn_kit_add_use(tn_growth_parse *parse, tn_kit_text path);
+void tn_kit_lost(tn_growth_parse *parse);
+
+static inline bool tn_kit_given(const tn_kit_length *length)
+{
+    return length->span.end > length->span.begin;
+}
+
+/* ---- words: sets of the places of words.def, as TN_KIT_AT(RULE) | TN_KIT_AT(SPACE) */
+
+enum tn_kit_place {
+#define PLACE(ID, BLOCK, HEADS, WHERE) TN_KIT_PLACE_##ID,
+#include "compiler/kit/words.def"
+    TN_KIT_PLACE_COUNT
+};
+_Static_assert(TN_KIT_PLACE_COUNT < 64, "a set of places has a bit for each");
+#define TN_KIT_AT(ID) (UINT64_C(1) << TN_KIT_PLACE_##ID)
+
+extern const tn_vocabulary tn_kit_words;
 
 enum { TN_KIT_PARTS_MAX = 10000, TN_KIT_GRID_MAX = 32, TN_KIT_ALTERNATIVES_MAX = 100000, TN_KIT_SLOPE_STEPS_MAX = 256 };
 
@@ -76,22 +217,22 @@ typedef struct tn_kit_region {
 } tn_kit_region;
 
 /* Where a space is, in LDU, and by how many quarter turns about the vertical it is turned. */
-typedef struct tn_kit_spot {
+typedef struct tn_space_placement {
     double at[3];
     uint32_t turns;
-} tn_kit_spot;
+} tn_space_placement;
 
-/* Cells that a file gave: x fastest, then z, then y, as the head has them. One file at two spots has two. */
-typedef struct tn_kit_mask {
+/* Cells that a file gave: x fastest, then z, then y, as the head has them. One file at two placements has two. */
+typedef struct tn_kit_voxels {
     const tn_kit_node *node; /* that names the file */
-    tn_kit_spot spot;
+    tn_space_placement placement;
     bool wrong; /* it was complained of */
     int32_t low[3];
     uint32_t size[3], index;
     uint64_t *bits;
     size_t words;
-    struct tn_kit_mask *next;
-} tn_kit_mask;
+    struct tn_kit_voxels *next;
+} tn_kit_voxels;
 
 /* The parts of a model that a file has; what was complained of has none. */
 typedef struct tn_kit_parts {
@@ -138,8 +279,8 @@ typedef struct tn_kit {
         tn_kit_model *first, *last;
     } model_list;
     struct {
-        tn_kit_mask *first, *last;
-    } mask_list;
+        tn_kit_voxels *first, *last;
+    } voxels_list;
     struct {
         tn_kit_parts *first, *last;
     } file_list;
@@ -149,13 +290,13 @@ typedef struct tn_kit {
     uint32_t turns; /* that parts have: 4 or 24 */
     uint32_t part_count;
     const char *counted[TN_KIT_COUNTED_MAX];
-    size_t mask_words;
-    uint32_t mask_count, masks_placed; /* those that models have come first */
-    uint32_t counted_count, shapes;    /* shapes: of the space at hand, each as often as it is named */
+    size_t voxel_words;
+    uint32_t voxels_count, voxels_placed;    /* those that models have come first */
+    uint32_t counted_count, shapes;          /* shapes: of the space at hand, each as often as it is named */
     bool damaged, names_lost, out_of_memory; /* names_lost: some may be missing because of errors that were reported */
 } tn_kit;
 
-/* Checks the files of all units. False where there were errors. */
+/* Checks the files of all units. False if there were errors. */
 bool tn_check_kit(tn_kit *kit, const tn_imports *imports);
 
 /* ---- lengths (length.c). Each reports what is wrong, and is 0 then. */
@@ -179,21 +320,15 @@ void tn_kit_unknown(tn_kit *kit, const tn_names *names, const char *kind, tn_spa
 /* "did you mean" among the names of a table, or `otherwise`. */
 void tn_kit_suggest(tn_kit *kit, tn_diagnostic *d, const tn_names *names, const char *wrong, const char *otherwise);
 
-/* ---- parts (part.c), spaces (space.c), rules (rule.c), models (model.c, search.c) */
-/* Parts of an LDraw library (part_file.c): reads the file that a part names, and takes its studs, tubes and, where
- * `body`, its size. */
-void tn_kit_read_part(tn_kit *kit, const tn_kit_node *node, tn_part_file *file);
-void tn_kit_take_part_file(tn_kit *kit, tn_kit_part *part, const tn_part_file *file, bool body);
+/* ---- parts (part.c), spaces (space.c), rules (rule.c), models (model.c) */
 void tn_kit_check_part(tn_kit *kit, tn_kit_part *part);
-/* Adds what is left of a box of which its `fill` cuts a corner off, and the slope; or says why not (E1343). */
-void tn_kit_add_slope(tn_kit *kit, tn_kit_part *part, const tn_kit_node *node, const tn_kit_box *whole);
 
 bool tn_kit_axis(tn_kit *kit, const tn_kit_text *word, tn_axis *axis);
 tn_kit_region tn_kit_check_space(tn_kit *kit, const tn_kit_node *node);
 
-/* The space that a file gives at a spot (mask.c), and the parts of a model that it has (stands.c): never NULL but where
- * out of memory. */
-tn_kit_region tn_kit_region_of_file(tn_kit *kit, const tn_kit_node *node, const tn_kit_spot *spot);
+/* The space that a file gives at a placement (voxels.c), and the parts of a model that it has (model.c): never NULL
+ * but where out of memory. */
+tn_kit_region tn_kit_region_of_file(tn_kit *kit, const tn_kit_node *node, const tn_space_placement *placement);
 const tn_kit_parts *tn_kit_parts_of_file(tn_kit *kit, const tn_kit_node *node);
 
 /* The lengths that a shape takes, in their order: a file may write their names before them. */
@@ -216,8 +351,6 @@ void tn_kit_check_rule(tn_kit *kit, const tn_kit_rule *rule);
 void tn_kit_check_model(tn_kit *kit, tn_kit_model *model);
 bool tn_kit_start_turn(tn_kit *kit, const tn_kit_node *start, uint32_t *turns);
 void tn_kit_check_conditions(tn_kit *kit, const tn_kit_node *node);
-void tn_kit_check_search(tn_kit *kit, tn_kit_model *model, const tn_kit_node *node);
-void tn_kit_check_searches(tn_kit *kit, const tn_kit_model *model);
 void tn_kit_check_test(tn_kit *kit, const tn_kit_node *test);
 extern const tn_expression_scope tn_kit_scope;
 
@@ -248,7 +381,7 @@ typedef struct tn_kit_placement {
 } tn_kit_placement;
 
 /* All different placements of an alternative at a connector of this type and side, in their order; *count of them.
- * NULL where out of memory. The alternative was checked. */
+ * NULL if out of memory. The alternative was checked. */
 tn_kit_placement *tn_kit_placements(tn_kit *kit, const tn_kit_node *places, const tn_kit_type *type, tn_kit_side side,
                                     uint32_t *count);
 
@@ -264,8 +397,5 @@ tn_status tn_emit_kit(tn_builder *builder, tn_kit *kit, const tn_kit_file *file,
 
 /* Conditions alone: a kit without parts and models, and a function for each, whose place is that of its code. */
 tn_status tn_emit_kit_conditions(tn_builder *builder, tn_kit *kit, const tn_kit_node *conditions, tn_error *error);
-
-void tn_format_kit(tn_format *format);
-void tn_kit_list(tn_listing *listing);
 
 #endif

@@ -3,8 +3,8 @@
 #include <string.h>
 #include <strings.h>
 
+#include "compiler/common/diagnostic.h"
 #include "compiler/common/lexical.h"
-#include "compiler/common/number_ranges.h"
 #include "compiler/kit/kit.h"
 #include "runtime/geometry/union/wide.h"
 
@@ -16,7 +16,7 @@ static tn_diagnostic *wrong(tn_kit *kit, tn_span span, const char *message)
     return tn_report(kit->diagnostics, E_KIT_LENGTH, span, "%s", message);
 }
 
-/* Millionths of a decimal number; false where it has more places or digits. */
+/* Millionths of a decimal number; false if it has more places or digits. */
 static bool read_decimal(const char *text, size_t size, int64_t *value)
 {
     int digits = 0, places = -1;

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compiler/common/number_ranges.h"
+#include "compiler/common/diagnostic.h"
 #include "compiler/kit/kit.h"
 #include "runtime/place/model/frame.h"
 

@@ -118,7 +118,7 @@ bool tn_kit_sizes(tn_kit *kit, const tn_kit_node *node, const tn_kit_extents *wa
     return false;
 }
 
-static tn_kit_region region_of_shape(tn_kit *kit, const tn_kit_node *node, const tn_kit_spot *at)
+static tn_kit_region region_of_shape(tn_kit *kit, const tn_kit_node *node, const tn_space_placement *at)
 {
     double size[3] = {0};
     tn_kit_region region = {.inside = NULL};
@@ -147,9 +147,9 @@ static tn_kit_region region_of_shape(tn_kit *kit, const tn_kit_node *node, const
     return region;
 }
 
-static tn_kit_region region_of(tn_kit *kit, const tn_kit_node *node, const tn_kit_spot *at);
+static tn_kit_region region_of(tn_kit *kit, const tn_kit_node *node, const tn_space_placement *at);
 
-static tn_kit_region region_named(tn_kit *kit, const tn_kit_node *node, const tn_kit_spot *at)
+static tn_kit_region region_named(tn_kit *kit, const tn_kit_node *node, const tn_space_placement *at)
 {
     tn_kit_region none = {.inside = NULL};
     tn_kit_space *space = tn_names_get(&kit->spaces, node->name.text);
@@ -185,14 +185,15 @@ static tn_kit_region join_regions(tn_kit *kit, tn_span span, const tn_kit_region
     return region;
 }
 
-static tn_kit_region region_of_two(tn_kit *kit, const tn_kit_node *node, const tn_kit_spot *at)
+static tn_kit_region region_of_two(tn_kit *kit, const tn_kit_node *node, const tn_space_placement *at)
 {
     tn_kit_region a = region_of(kit, node->inner.first, at), b = region_of(kit, node->inner.last, at);
     return join_regions(kit, node->span, &a, &b, node->kind == TN_KIT_BOTH);
 }
 
-/* The spot moved so many times by what stands behind `at` or `by`; turned as the spot is. */
-static bool move_spot(tn_kit *kit, const tn_kit_node *node, const tn_kit_spot *at, double times, tn_kit_spot *to)
+/* The placement moved so many times by what stands behind `at` or `by`; turned as the placement is. */
+static bool move_placement(tn_kit *kit, const tn_kit_node *node, const tn_space_placement *at, double times,
+                           tn_space_placement *to)
 {
     double by[3];
     for (int k = 0; k < 3; k++) {
@@ -212,16 +213,17 @@ static bool move_spot(tn_kit *kit, const tn_kit_node *node, const tn_kit_spot *a
     return true;
 }
 
-static tn_kit_region region_moved(tn_kit *kit, const tn_kit_node *node, const tn_kit_spot *at)
+static tn_kit_region region_moved(tn_kit *kit, const tn_kit_node *node, const tn_space_placement *at)
 {
-    tn_kit_spot to;
-    return move_spot(kit, node, at, 1, &to) ? region_of(kit, node->inner.first, &to) : (tn_kit_region){.inside = NULL};
+    tn_space_placement to;
+    return move_placement(kit, node, at, 1, &to) ? region_of(kit, node->inner.first, &to)
+                                                 : (tn_kit_region){.inside = NULL};
 }
 
-static tn_kit_region region_turned(tn_kit *kit, const tn_kit_node *node, const tn_kit_spot *at)
+static tn_kit_region region_turned(tn_kit *kit, const tn_kit_node *node, const tn_space_placement *at)
 {
     int64_t turns;
-    tn_kit_spot to = *at;
+    tn_space_placement to = *at;
     if (!tn_kit_whole(kit, &node->count[0], 0, 3, "a turn", &turns))
         return (tn_kit_region){.inside = NULL};
     to.turns += (uint32_t)turns;
@@ -229,10 +231,10 @@ static tn_kit_region region_turned(tn_kit *kit, const tn_kit_node *node, const t
 }
 
 /* What is inside of any of so many copies from the first on: halves are joined, so that the condition is not deep. */
-static tn_kit_region region_copies(tn_kit *kit, const tn_kit_node *node, const tn_kit_spot *at, int64_t first,
+static tn_kit_region region_copies(tn_kit *kit, const tn_kit_node *node, const tn_space_placement *at, int64_t first,
                                    int64_t count)
 {
-    tn_kit_spot to;
+    tn_space_placement to;
     if (count > 1) {
         tn_kit_region a = region_copies(kit, node, at, first, count / 2);
         if (!a.inside)
@@ -240,11 +242,11 @@ static tn_kit_region region_copies(tn_kit *kit, const tn_kit_node *node, const t
         tn_kit_region b = region_copies(kit, node, at, first + count / 2, count - count / 2);
         return join_regions(kit, node->span, &a, &b, false);
     }
-    return move_spot(kit, node, at, (double)first, &to) ? region_of(kit, node->inner.first, &to)
-                                                        : (tn_kit_region){.inside = NULL};
+    return move_placement(kit, node, at, (double)first, &to) ? region_of(kit, node->inner.first, &to)
+                                                             : (tn_kit_region){.inside = NULL};
 }
 
-static tn_kit_region region_repeated(tn_kit *kit, const tn_kit_node *node, const tn_kit_spot *at)
+static tn_kit_region region_repeated(tn_kit *kit, const tn_kit_node *node, const tn_space_placement *at)
 {
     int64_t count;
     return tn_kit_whole(kit, &node->count[0], 1, REPEATED_MAX, "a number of copies", &count)
@@ -254,7 +256,7 @@ static tn_kit_region region_repeated(tn_kit *kit, const tn_kit_node *node, const
 
 /* Recursion is as deep as spaces nest, which was checked for each, and as names lead to one another, which is checked
  * by the number of shapes. */
-static tn_kit_region region_of(tn_kit *kit, const tn_kit_node *node, const tn_kit_spot *at)
+static tn_kit_region region_of(tn_kit *kit, const tn_kit_node *node, const tn_space_placement *at)
 {
     tn_kit_region region = {.inside = NULL};
     if (node->depth > TN_NESTING_MAX || ++kit->shapes > SHAPES_MAX) {
@@ -287,7 +289,7 @@ static tn_kit_region region_of(tn_kit *kit, const tn_kit_node *node, const tn_ki
 
 tn_kit_region tn_kit_check_space(tn_kit *kit, const tn_kit_node *node)
 {
-    static const tn_kit_spot origin = {.turns = 0};
+    static const tn_space_placement origin = {.turns = 0};
     size_t errors = kit->diagnostics->error_count;
     kit->shapes = 0;
     tn_kit_region region = region_of(kit, node, &origin);

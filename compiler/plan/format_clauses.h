@@ -3,7 +3,7 @@
 #ifndef TARTAN_COMPILER_PLAN_FORMAT_CLAUSES_H
 #define TARTAN_COMPILER_PLAN_FORMAT_CLAUSES_H
 
-#include "compiler/common/format_tokens.h"
+#include "compiler/common/layout.h"
 #include "compiler/plan/syntax/ast.h"
 
 /* Lays out a .plan file. */

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "compiler/solid/solid.h"
-#include "runtime/geometry/union/box_genes.h"
+#include "runtime/geometry/union/cut_box.h"
 
 static tn_diagnostic *report(tn_solid_check *check, tn_code code, tn_span span, const char *message)
 {

@@ -3,9 +3,294 @@
 #include <string.h>
 #include <strings.h>
 
+#include "compiler/common/diagnostic.h"
+#include "compiler/common/lexical.h"
 #include "compiler/common/names.h"
-#include "compiler/common/number_ranges.h"
 #include "compiler/solid/solid.h"
+#include "runtime/number/interval.h"
+#include "runtime/solid/measured.h"
+
+/* ==== works out numbers of designs exactly, in tenths and their tenths, and rounds each result once: what is written
+ * to touch does touch */
+
+/* Shifts the one with fewer places so that both have as many. False if that passes what is held. */
+static bool align(tn_exact *number, int places)
+{
+    while (number->places < places) {
+        if (number->digits > tn_power_of_ten(TN_DECIMAL_DIGITS_MAX) ||
+            number->digits < -tn_power_of_ten(TN_DECIMAL_DIGITS_MAX))
+            return false;
+        number->digits *= 10;
+        number->places++;
+    }
+    return true;
+}
+
+static bool rounded(tn_exact number, double *value)
+{
+    if (!align(&number, 0) || number.places > TN_DECIMAL_DIGITS_MAX)
+        return false;
+    *value = tn_ratio(number.digits, tn_power_of_ten(number.places));
+    return *value <= TN_SOLID_COORDINATE_MAX && *value >= -TN_SOLID_COORDINATE_MAX;
+}
+
+static void wrong(tn_solid_check *check, tn_span span, const char *help)
+{
+    tn_diagnostic *d = tn_report(check->diagnostics, E_SOLID_NUMBER, span, "this number cannot be held exactly");
+    tn_help(check->diagnostics, d, "%s", help);
+    check->solid->wrong = true;
+}
+
+static bool read_length(tn_solid_check *check, const tn_solid_number *number, tn_exact *value)
+{
+    static const int places[TN_SOLID_MODEL_COUNT] = {
+        [TN_MODEL_MILLIMETRES] = 6, [TN_MODEL_CENTIMETRES] = 7, [TN_MODEL_METRES] = 9};
+    if (check->solid->model == TN_MODEL_NONE) {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_SOLID_LENGTH, number->span,
+                                     "this is a length, and the design does not say what its unit is");
+        tn_help(check->diagnostics, d, "write `model mm;` at its start, or leave out the unit here");
+        check->solid->wrong = true;
+        return false;
+    }
+    *value = (tn_exact){number->nanometres, places[check->solid->model]};
+    return true;
+}
+
+static bool read(tn_solid_check *check, const tn_solid_number *number, tn_exact *value)
+{
+    const tn_source *source = &check->diagnostics->sources->files[number->digits.file];
+    if (number->is_length) {
+        if (!read_length(check, number, value))
+            return false;
+    } else if (!tn_exact_read(source->text + number->digits.begin, number->digits.end - number->digits.begin, value)) {
+        wrong(check, number->span, "write at most 36 digits");
+        return false;
+    }
+    if (number->negative)
+        value->digits = -value->digits;
+    return true;
+}
+
+/* The nearest whole number of units; of two the one above. The number has places, not powers of ten. */
+static double on_grid(tn_exact number, const tn_face_unit *unit)
+{
+    bool negative = number.digits < 0, exact;
+    tn_wide steps = tn_wide_product(negative ? -number.digits : number.digits, 2 * (tn_int128)unit->bottom);
+    tn_wide step = tn_wide_product(tn_power_of_ten(number.places), unit->top);
+    /* the whole part of number / unit + 1/2, of which steps / (2 step) is the first; below 0, halves go up as well */
+    tn_int128 units = tn_wide_quotient(tn_wide_add(steps, step), tn_wide_shifted(step, 1), &exact);
+    if (negative)
+        units = exact ? 1 - units : -units;
+    return tn_ratio(units * unit->top, unit->bottom);
+}
+
+static bool place(const tn_checked_solid *solid, tn_exact number, tn_solid_place *face)
+{
+    if (!rounded(number, &face->written))
+        return false;
+    face->at = face->written;
+    if (solid->unit.top && align(&number, 0))
+        face->at = on_grid(number, &solid->unit);
+    return face->at <= TN_SOLID_COORDINATE_MAX && face->at >= -TN_SOLID_COORDINATE_MAX;
+}
+
+static const char too_far[] = "numbers reach up to 1,000,000,000, and have at most 36 digits behind the point";
+
+void tn_solid_corner(tn_solid_check *check, const tn_solid_number *number, tn_solid_place *face)
+{
+    tn_exact value;
+    *face = (tn_solid_place){0};
+    if (read(check, number, &value) && !place(check->solid, value, face))
+        wrong(check, number->span, too_far);
+}
+
+double tn_solid_value(tn_solid_check *check, const tn_solid_number *number)
+{
+    tn_exact value;
+    double result;
+    if (!read(check, number, &value))
+        return 0;
+    if (rounded(value, &result))
+        return result;
+    wrong(check, number->span, too_far);
+    return 0;
+}
+
+/* Whole numbers that divide each other as two numbers do. False if one has more than 15 digits. */
+static bool divide(tn_exact a, tn_exact b, tn_face_unit *unit)
+{
+    int places = a.places > b.places ? a.places : b.places;
+    if (!align(&a, places) || !align(&b, places) || a.digits <= 0 || b.digits <= 0)
+        return false;
+    tn_int128 divisor = a.digits, rest = b.digits;
+    while (rest) {
+        tn_int128 next = divisor % rest;
+        divisor = rest;
+        rest = next;
+    }
+    a.digits /= divisor;
+    b.digits /= divisor;
+    if (a.digits > TN_SOLID_UNIT_MAX || b.digits > TN_SOLID_UNIT_MAX)
+        return false;
+    *unit = (tn_face_unit){(int64_t)a.digits, (int64_t)b.digits};
+    return true;
+}
+
+/* Takes `unit a/b`; wrong ones are reported. */
+static void solid_take_unit(tn_solid_check *check, const tn_solid_item *item)
+{
+    tn_exact a, b;
+    if (!read(check, &item->number[0], &a) || !read(check, &item->number[1], &b))
+        return;
+    if (a.digits > 0 && b.digits > 0 && divide(a, b, &check->solid->unit))
+        return;
+    bool above = a.digits > 0 && b.digits > 0;
+    tn_diagnostic *d = tn_report(check->diagnostics, E_SOLID_NUMBER, item->span, "%s",
+                                 above ? "this unit has too many digits" : "a unit is above 0");
+    tn_help(check->diagnostics, d,
+            above ? "write it as a fraction of whole numbers of at most 15 digits: `unit 1/1024;`"
+                  : "write `unit 1/1024;`");
+    check->solid->wrong = true;
+}
+
+bool tn_solid_face(tn_solid_check *check, const tn_solid_number *a, const tn_solid_number *b, int weight,
+                   tn_solid_place *face)
+{
+    tn_exact at = {0}, size = {0};
+    *face = (tn_solid_place){0};
+    if ((a && !read(check, a, &at)) || (b && !read(check, b, &size)))
+        return false;
+    int places = at.places > size.places ? at.places : size.places;
+    if (!align(&at, places) || !align(&size, places) || !align(&at, places + 1) ||
+        size.digits > tn_power_of_ten(TN_DECIMAL_DIGITS_MAX) || size.digits < -tn_power_of_ten(TN_DECIMAL_DIGITS_MAX) ||
+        !place(check->solid, (tn_exact){at.digits + 5 * weight * size.digits, places + 1}, face)) {
+        wrong(check, a ? a->span : b->span, "place and size together have too many digits");
+        return false;
+    }
+    return true;
+}
+
+/* ==== tells whether a requirement always or never holds, whatever the design: by the values that measures can have */
+
+/* The weakest contact has no value where nothing touches. */
+static tn_interval bounds_of_measure(uint32_t term)
+{
+    switch ((tn_solid_measured)term) {
+    case TN_SOLID_CENTRE_X_MEASURED:
+    case TN_SOLID_CENTRE_Y_MEASURED:
+    case TN_SOLID_CENTRE_Z_MEASURED:
+    case TN_SOLID_STABLE_MEASURED:
+        return (tn_interval){-INFINITY, INFINITY, false};
+    case TN_SOLID_SUPPORT_MEASURED:
+        return (tn_interval){0, 1, false};
+    case TN_SOLID_WEAKEST_MEASURED:
+        return (tn_interval){0, INFINITY, true};
+    default:
+        return (tn_interval){0, INFINITY, false};
+    }
+}
+
+/* Expressions nest no deeper than the parser allows. */
+static tn_interval bounds_of(const tn_expression *e)
+{
+    tn_interval values[TN_ARITY_MAX];
+    const tn_interval *operands[TN_ARITY_MAX];
+    size_t count = 0;
+    if (e->op == TN_OP_NUMBER)
+        return tn_interval_of(e->number);
+    if (e->op == TN_OP_TERM)
+        return bounds_of_measure(e->term);
+    for (const tn_expression *operand = e->first; operand && count < TN_ARITY_MAX; operand = operand->next) {
+        values[count] = bounds_of(operand);
+        operands[count] = &values[count];
+        count++;
+    }
+    return tn_operation_bounds(e->op, operands);
+}
+
+static tn_solid_answer opposite(tn_solid_answer answer)
+{
+    return answer == TN_SOLID_ALWAYS ? TN_SOLID_NEVER : answer == TN_SOLID_NEVER ? TN_SOLID_ALWAYS : TN_SOLID_DEPENDS;
+}
+
+static tn_solid_answer both(tn_solid_answer a, tn_solid_answer b)
+{
+    if (a == TN_SOLID_NEVER || b == TN_SOLID_NEVER)
+        return TN_SOLID_NEVER;
+    return a == TN_SOLID_ALWAYS && b == TN_SOLID_ALWAYS ? TN_SOLID_ALWAYS : TN_SOLID_DEPENDS;
+}
+
+static tn_solid_answer answer_of(bool always, bool never)
+{
+    return always ? TN_SOLID_ALWAYS : never ? TN_SOLID_NEVER : TN_SOLID_DEPENDS;
+}
+
+/* What may have no value does not hold there. */
+static tn_solid_answer is_at_most(tn_interval a, tn_interval b)
+{
+    return answer_of(a.high <= b.low && !a.fails && !b.fails, a.low > b.high);
+}
+
+static tn_solid_answer is_below(tn_interval a, tn_interval b)
+{
+    return answer_of(a.high < b.low && !a.fails && !b.fails, a.low >= b.high);
+}
+
+static tn_solid_answer is_equal(tn_interval a, tn_interval b)
+{
+    bool one = a.low == a.high && b.low == b.high && a.low == b.low;
+    return answer_of(one && !a.fails && !b.fails, a.high < b.low || b.high < a.low);
+}
+
+static tn_solid_answer compare(const tn_expression *e)
+{
+    tn_interval a = bounds_of(e->first), b = bounds_of(e->first->next);
+    switch ((int)e->op) {
+    case TN_OP_IS_BELOW:
+        return is_below(a, b);
+    case TN_OP_IS_AT_MOST:
+        return is_at_most(a, b);
+    case TN_OP_IS_ABOVE:
+        return is_below(b, a);
+    case TN_OP_IS_AT_LEAST:
+        return is_at_most(b, a);
+    case TN_OP_IS_EQUAL:
+        return is_equal(a, b);
+    case TN_OP_IS_UNEQUAL:
+        return a.fails || b.fails ? TN_SOLID_DEPENDS : opposite(is_equal(a, b));
+    default: /* between */
+        return both(is_at_most(b, a), is_at_most(a, bounds_of(e->last)));
+    }
+}
+
+static tn_solid_answer is_not_zero(tn_interval value)
+{
+    bool always = !value.fails && (value.low > 0 || value.high < 0);
+    return answer_of(always, value.low == 0 && value.high == 0);
+}
+
+static tn_solid_answer solid_requirement_answer(const tn_expression *e)
+{
+    switch ((int)e->op) {
+    case TN_OP_IS_BELOW:
+    case TN_OP_IS_AT_MOST:
+    case TN_OP_IS_EQUAL:
+    case TN_OP_IS_UNEQUAL:
+    case TN_OP_IS_AT_LEAST:
+    case TN_OP_IS_ABOVE:
+    case TN_OP_IS_BETWEEN:
+        return compare(e);
+    case TN_OP_IS_BOTH:
+        return both(solid_requirement_answer(e->first), solid_requirement_answer(e->last));
+    case TN_OP_IS_EITHER:
+        return opposite(
+            both(opposite(solid_requirement_answer(e->first)), opposite(solid_requirement_answer(e->last))));
+    case TN_OP_IS_NOT:
+        return opposite(solid_requirement_answer(e->first));
+    default:
+        return is_not_zero(bounds_of(e));
+    }
+}
 
 const tn_expression_scope tn_solid_scope = {
     .names = tn_solid_measured_names,
@@ -99,7 +384,7 @@ static void apply_setting(tn_solid_check *check, const tn_solid_item *item)
         check->solid->flags |= TN_SOLID_PENETRATION;
         break;
     case TN_SOLID_SETS_UNIT:
-        tn_solid_take_unit(check, item);
+        solid_take_unit(check, item);
         break;
     case TN_SOLID_SETS_MODEL:
         take_model(check, item);
@@ -150,7 +435,7 @@ static bool names_measure(const tn_expression *e)
 
 static void warn_of_answer(tn_solid_check *check, const tn_solid_entry *entry)
 {
-    tn_solid_answer answer = tn_solid_requirement_answer(entry->expression);
+    tn_solid_answer answer = solid_requirement_answer(entry->expression);
     if (answer == TN_SOLID_DEPENDS)
         return;
     tn_diagnostic *d = tn_report(check->diagnostics, W_REQUIREMENT_CONSTANT, entry->span, "this requirement %s holds",

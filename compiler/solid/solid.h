@@ -8,7 +8,7 @@
 
 #include "compiler/common/expression.h"
 #include "compiler/common/import.h"
-#include "compiler/common/listing.h"
+#include "compiler/common/token.h"
 #include "compiler/common/words.h"
 #include "compiler/hemls/hemls.h"
 #include "runtime/solid/exact.h"
@@ -122,9 +122,6 @@ tn_solid_file *tn_parse_solid(tn_arena *arena, tn_diagnostics *diagnostics, uint
 void *tn_solid_lexer_new(tn_growth_parse *parse);
 void tn_solid_lexer_free(void *scanner);
 
-/* Is this a word that starts a statement of a design? */
-bool tn_solid_heads(const char *text, size_t size);
-
 /* Constructors; out of memory is the arena's to remember. */
 tn_solid_item *tn_solid_item_new(tn_growth_parse *parse, tn_solid_statement kind, tn_span span);
 tn_solid_part *tn_solid_part_new(tn_growth_parse *parse, tn_solid_part_kind kind, tn_span span, tn_solid_part *before);
@@ -163,7 +160,7 @@ typedef struct tn_checked_solids {
     tn_checked_solid *first, *last;
 } tn_checked_solids;
 
-/* Checks the designs of all units. False where there were errors. */
+/* Checks the designs of all units. False if there were errors. */
 bool tn_check_solids(tn_arena *arena, tn_diagnostics *diagnostics, const tn_imports *imports,
                      tn_checked_solids *solids);
 
@@ -181,9 +178,6 @@ void tn_check_genes(tn_solid_check *check, const tn_solid_item *item);
 /* The value of a number in units of the design, rounded once; wrong ones are reported, and 0. */
 double tn_solid_value(tn_solid_check *check, const tn_solid_number *number);
 
-/* Takes `unit a/b`; wrong ones are reported. */
-void tn_solid_take_unit(tn_solid_check *check, const tn_solid_item *item);
-
 /* A face: as it is written, and where the grid of `unit` puts it, each rounded once. */
 typedef struct tn_solid_place {
     double written, at;
@@ -192,7 +186,7 @@ typedef struct tn_solid_place {
 /* The face that a number says; wrong ones are reported, and 0. */
 void tn_solid_corner(tn_solid_check *check, const tn_solid_number *number, tn_solid_place *face);
 
-/* a + b * weight / 2 with weight -1, 0 or 1, worked out exactly; a: NULL for 0. False where it cannot be held. */
+/* a + b * weight / 2 with weight -1, 0 or 1, worked out exactly; a: NULL for 0. False if it cannot be held. */
 bool tn_solid_face(tn_solid_check *check, const tn_solid_number *a, const tn_solid_number *b, int weight,
                    tn_solid_place *face);
 
@@ -202,23 +196,12 @@ extern const tn_expression_scope tn_solid_scope;
 /* A goal's target (which is 0) or weight (1): a plain number; `otherwise` where it is not written. */
 double tn_solid_goal_number(const tn_sources *sources, const tn_solid_item *item, int which, double otherwise);
 
-/* TN_OK or TN_MEMORY. */
-tn_status tn_emit_solids(tn_builder *builder, const tn_sources *sources, const tn_checked_solids *solids,
-                         tn_error *error);
-
-/* Lays out a .solid file. */
-void tn_format_solid(tn_format *format);
-
 /* Gives each expression that is measured its words, which are its name where it is printed: with the blanks of the
  * layout, so that a name does not hang on how the file is laid out. Out of memory is the arena's to remember. */
 void tn_solid_name_measures(tn_arena *arena, const tn_source *source, const tn_tokens *tokens, tn_solid_file *file);
 
-/* Lists designs with their statements. */
-void tn_solid_list(tn_listing *listing);
-
 /* Does a requirement, of which nothing is wrong, hold of every design, or of none? */
 typedef enum tn_solid_answer { TN_SOLID_DEPENDS, TN_SOLID_ALWAYS, TN_SOLID_NEVER } tn_solid_answer;
-tn_solid_answer tn_solid_requirement_answer(const tn_expression *requirement);
 
 /* ---- words: sets of the places of words.def, as TN_SOLID_AT(BOX) | TN_SOLID_AT(GENES) */
 

@@ -2,7 +2,7 @@
  * neighbouring lines are lined up, their numbers at the point. */
 #include <string.h>
 
-#include "compiler/common/format_tokens.h"
+#include "compiler/common/layout.h"
 #include "compiler/study/study.h"
 
 enum {
@@ -129,7 +129,7 @@ static void put_row(tn_format *format, size_t first, size_t last, const cell *ce
     }
 }
 
-/* The run as a table. False where it does not fit, or is of one statement. */
+/* The run as a table. False if it does not fit, or is of one statement. */
 static bool put_table(tn_format *format, size_t first, size_t last, size_t columns)
 {
     cell cells[CELLS_MAX] = {0};

@@ -8,7 +8,7 @@
 
 #include "compiler/common/expression.h"
 #include "compiler/common/import.h"
-#include "compiler/common/listing.h"
+#include "compiler/common/token.h"
 #include "compiler/common/words.h"
 #include "compiler/hemls/hemls.h"
 
@@ -112,10 +112,7 @@ typedef struct tn_checked_study {
     tn_span span;
 } tn_checked_study;
 
-/* Reports boundaries that no point keeps to at once. Meshes are not looked at. */
-void tn_check_boundaries(tn_diagnostics *diagnostics, const tn_study_item *const *boundaries, uint32_t count);
-
-/* Checks the studies among the units. False where there were errors. */
+/* Checks the studies among the units. False if there were errors. */
 bool tn_check_study(tn_arena *arena, tn_diagnostics *diagnostics, const tn_imports *imports, tn_checked_study *study);
 
 /* What fitness expressions speak of: everything that is measured of a surface. */
@@ -123,10 +120,6 @@ extern const tn_expression_scope tn_study_scope;
 
 /* The tn_measured of a name, or their number. */
 uint32_t tn_study_term(const char *name);
-
-/* TN_OK or TN_MEMORY. */
-tn_status tn_emit_study(tn_builder *builder, tn_arena *arena, const tn_sources *sources, const tn_checked_study *study,
-                        tn_error *error);
 
 /* Lays out a .study file, with an evolution block or without. */
 void tn_format_study(tn_format *format);

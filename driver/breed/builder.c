@@ -11,7 +11,7 @@
 #include "driver/solid/solid.h"
 #include "runtime/geometry/union/union.h"
 #include "runtime/number/run.h"
-#include "runtime/solid/genes.h"
+#include "runtime/solid/design.h"
 
 #define BATCH 32u /* designs that a thread scores at once */
 

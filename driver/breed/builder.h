@@ -2,7 +2,7 @@
 #ifndef TARTAN_DRIVER_BREED_BUILDER_H
 #define TARTAN_DRIVER_BREED_BUILDER_H
 
-#include "driver/program/form_listener.h"
+#include "driver/program/program_scorer.h"
 #include "runtime/base/picture.h"
 #include "runtime/genome/boxes/box_kind.h"
 #include "runtime/genome/breeding/evolve.h"

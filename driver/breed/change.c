@@ -9,7 +9,7 @@
 
 #include "driver/open/files.h"
 #include "driver/open/open.h"
-#include "driver/open/stdlib_find.h"
+#include "driver/open/stdlib.h"
 #include "runtime/base/array.h"
 #include "runtime/genome/settings.h"
 

@@ -10,13 +10,13 @@
 #define TARTAN_DRIVER_BREED_EVOLVE_H
 
 #include "driver/breed/builder.h"
+#include "driver/breed/evolve_results.h"
 #include "driver/breed/field_parents.h"
 #include "driver/breed/field_scorer.h"
 #include "driver/breed/grower.h"
 #include "driver/breed/learn.h"
-#include "driver/breed/run_files.h"
 #include "driver/breed/skeleton.h"
-#include "driver/hand/by_hand.h"
+#include "driver/hand/hand.h"
 #include "driver/open/open.h"
 #include "driver/place/placer.h"
 #include "driver/program/program_scorer.h"
@@ -102,7 +102,7 @@ typedef struct tn_run_options {
     bool rescore; /* where a resumed run's inputs have changed, all members are scored again; otherwise E1252 */
 } tn_run_options;
 
-/* What is worth saying of a run's first generation (first_look.c). */
+/* What is worth saying of a run's first generation (evolve_begin.c). */
 typedef struct tn_finding {
     tn_code code; /* of a warning */
     char message[200], help[300];
@@ -166,11 +166,11 @@ tn_status tn_run_settle(tn_run *run, tn_error *error);
  * said at every resuming. */
 tn_status tn_run_set(tn_run *run, const char *change, tn_error *error);
 
-/* Inserts an individual, edits one or takes one out, as an event of by_hand.h says it; stored with the next generation.
+/* Inserts an individual, edits one or takes one out, as an event of hand.h says it; stored with the next generation.
  */
 tn_status tn_run_by_hand(tn_run *run, const char *kind, const char *text, tn_error *error);
 
-/* What sentences of the job are, for what a person writes (driver/hand/by_hand.h). */
+/* What sentences of the job are, for what a person writes (driver/hand/hand.h). */
 tn_by_hand_language tn_evolution_job_language(const tn_evolution_job *job);
 
 #define TN_SENTENCE_FILE_MAX ((size_t)1 << 20) /* bytes of a sentence that is inserted */

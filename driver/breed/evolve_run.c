@@ -10,13 +10,200 @@
 #include "compiler/evolution/evolution.h"
 #include "driver/breed/change.h"
 #include "driver/breed/evolve.h"
-#include "driver/breed/evolve_history.h"
-#include "driver/breed/evolve_replay.h"
-#include "driver/hand/choice.h"
+#include "driver/breed/evolve_begin.h"
+#include "driver/hand/hand.h"
 #include "runtime/base/array.h"
 #include "runtime/base/file.h"
 #include "runtime/genome/mapping/sentences.h"
-#include "runtime/numeric/numeric.h"
+#include "runtime/genome/store/run_store.h"
+#include "runtime/math/elementary.h"
+#include "runtime/plan/text/text.h"
+#include "runtime/ranks/ranks.h"
+
+typedef struct rescored_list {
+    tn_rescored *items; /* in order of their ids; owned */
+    size_t count;
+} rescored_list;
+
+/* Owns all of it. Zero it to begin with; clear it in any case. */
+typedef struct run_history {
+    uint32_t generations;
+    tn_run_scores scores;
+    tn_run_event *events;
+    size_t event_count;
+    rescored_list *rescored; /* [events]: the members' scores after a change; empty for choices */
+} run_history;
+
+/* ---- what a run's database says of the generations that are stored, so that they can be made again without evaluating
+ *
+ * With several ranks, rank 0 reads it and tells the others. */
+
+static void run_history_clear(run_history *history)
+{
+    for (size_t i = 0; history->rescored && i < history->event_count; i++)
+        free(history->rescored[i].items);
+    free(history->rescored);
+    tn_run_scores_clear(&history->scores);
+    tn_run_events_free(history->events, history->event_count);
+    *history = (run_history){0};
+}
+
+static int compare_rescored(const void *left, const void *right)
+{
+    const tn_rescored *a = left, *b = right;
+    return a->id < b->id ? -1 : a->id > b->id;
+}
+
+/* Orders scores by their ids. */
+static void rescored_sort(tn_rescored *items, size_t count)
+{
+    qsort(items, count, sizeof *items, compare_rescored);
+}
+
+/* For tn_evolution_recall: the scores of a rescored_list. */
+static bool rescored_recall(void *context, uint64_t id, tn_score *score)
+{
+    const rescored_list *list = context;
+    tn_rescored key = {.id = id};
+    const tn_rescored *found = bsearch(&key, list->items, list->count, sizeof key, compare_rescored);
+    if (found)
+        *score = found->score;
+    return found != NULL;
+}
+
+/* ---- from the database */
+
+static bool is_choice(const tn_run_event *event)
+{
+    return strcmp(event->kind, "choose") == 0;
+}
+
+static tn_status read_store(tn_run_store *store, size_t numbers, run_history *h, tn_error *error)
+{
+    tn_status status = tn_run_store_generations(store, &h->generations, error);
+    if (status == TN_OK)
+        status = tn_run_store_scores(store, numbers, &h->scores, error);
+    if (status == TN_OK)
+        status = tn_run_store_events(store, &h->events, &h->event_count, error);
+    if (status == TN_OK && !(h->rescored = calloc(h->event_count + 1, sizeof *h->rescored)))
+        status = tn_fail_memory(error);
+    for (size_t i = 0; status == TN_OK && i < h->event_count; i++)
+        if (!is_choice(&h->events[i]))
+            status = tn_run_store_rescored(store, h->events[i].generation, numbers, &h->rescored[i].items,
+                                           &h->rescored[i].count, error);
+    return status;
+}
+
+/* ---- told to other ranks: the same structures one behind the other, as this machine has them */
+
+static bool put(tn_buffer *out, const void *bytes, size_t size)
+{
+    return size == 0 || tn_buffer_append(out, bytes, size);
+}
+
+static bool put_size(tn_buffer *out, uint64_t size)
+{
+    return put(out, &size, sizeof size);
+}
+
+static bool put_text(tn_buffer *out, const char *text)
+{
+    return put_size(out, strlen(text)) && put(out, text, strlen(text));
+}
+
+static bool put_history(const run_history *h, tn_buffer *out)
+{
+    bool done = put_size(out, h->generations) && put_size(out, h->scores.count) &&
+                put(out, h->scores.scores, h->scores.count * sizeof *h->scores.scores) &&
+                put(out, h->scores.known, h->scores.count * sizeof *h->scores.known) && put_size(out, h->event_count);
+    for (size_t i = 0; done && i < h->event_count; i++)
+        done = put_size(out, h->events[i].generation) && put_text(out, h->events[i].kind) &&
+               put_text(out, h->events[i].text) && put_size(out, h->rescored[i].count) &&
+               put(out, h->rescored[i].items, h->rescored[i].count * sizeof(tn_rescored));
+    return done;
+}
+
+typedef struct told {
+    const uint8_t *at;
+    bool failed; /* out of memory */
+} told;
+
+static uint64_t take_size(told *t)
+{
+    uint64_t size;
+    memcpy(&size, t->at, sizeof size);
+    t->at += sizeof size;
+    return size;
+}
+
+/* `count` items, with a zero behind them. */
+static void *take_items(told *t, size_t count, size_t size)
+{
+    uint8_t *items = malloc(count * size + 1);
+    t->failed |= !items;
+    if (items) {
+        memcpy(items, t->at, count * size);
+        items[count * size] = '\0';
+    }
+    t->at += count * size;
+    return items;
+}
+
+static void take_event(told *t, tn_run_event *event, rescored_list *list)
+{
+    event->generation = (uint32_t)take_size(t);
+    event->kind = take_items(t, (size_t)take_size(t), 1);
+    event->text = take_items(t, (size_t)take_size(t), 1);
+    list->count = (size_t)take_size(t);
+    list->items = take_items(t, list->count, sizeof *list->items);
+}
+
+static tn_status take_history(const uint8_t *bytes, run_history *h, tn_error *error)
+{
+    told t = {.at = bytes};
+    h->generations = (uint32_t)take_size(&t);
+    h->scores.count = (size_t)take_size(&t);
+    h->scores.scores = take_items(&t, h->scores.count, sizeof *h->scores.scores);
+    h->scores.known = take_items(&t, h->scores.count, sizeof *h->scores.known);
+    size_t events = (size_t)take_size(&t);
+    h->events = calloc(events + 1, sizeof *h->events);
+    h->rescored = calloc(events + 1, sizeof *h->rescored);
+    if (!h->events || !h->rescored)
+        return tn_fail_memory(error);
+    for (h->event_count = 0; h->event_count < events; h->event_count++)
+        take_event(&t, &h->events[h->event_count], &h->rescored[h->event_count]);
+    return t.failed ? tn_fail_memory(error) : TN_OK;
+}
+
+static tn_status tell(const tn_ranks *ranks, tn_status status, run_history *h, tn_error *error)
+{
+    tn_buffer out = {0};
+    bool lead = tn_ranks_lead(ranks);
+    if (status == TN_OK && lead && !put_history(h, &out))
+        status = tn_fail_memory(error);
+    status = tn_ranks_agree(ranks, status, error);
+    uint8_t *bytes = (uint8_t *)out.data;
+    size_t size = out.size;
+    if (status == TN_OK)
+        status = tn_ranks_tell(ranks, &bytes, &size, error);
+    if (status == TN_OK) {
+        status = lead ? TN_OK : take_history(bytes, h, error);
+        status = tn_ranks_agree(ranks, status, error);
+    }
+    free(bytes);
+    return status;
+}
+
+/* Reads it; with several ranks together. `store` is NULL on all but rank 0. */
+static tn_status run_history_read(tn_run_store *store, size_t numbers, const tn_ranks *ranks, run_history *history,
+                                  tn_error *error)
+{
+    *history = (run_history){0};
+    tn_status status = tn_ranks_lead(ranks) ? read_store(store, numbers, history, error) : TN_OK;
+    return tn_ranks_several(ranks) ? tell(ranks, status, history, error) : status;
+}
+
+/* ---- moving a run on */
 
 char *tn_run_database(const char *dir)
 {
@@ -71,7 +258,7 @@ static tn_status keep_rescored(tn_run *run, tn_error *error)
         return tn_fail_memory(error);
     for (size_t i = 0; i < count; i++)
         kept[i] = (tn_rescored){members[i]->id, members[i]->score};
-    tn_rescored_sort(kept, count);
+    rescored_sort(kept, count);
     free(run->rescored);
     run->rescored = kept;
     run->rescored_count = count;
@@ -251,7 +438,7 @@ tn_status tn_run_by_hand(tn_run *run, const char *kind, const char *text, tn_err
 
 /* Scores after a change; of those who were taken out after it, those that they were born with. */
 typedef struct known_scores {
-    tn_rescored_list *list;
+    rescored_list *list;
     const tn_run_scores *births;
 } known_scores;
 
@@ -259,7 +446,7 @@ static bool recall_known(void *context, uint64_t id, tn_score *score)
 {
     known_scores *known = context;
     tn_run_scores births = *known->births;
-    return tn_rescored_recall(known->list, id, score) || tn_run_scores_recall(&births, id, score);
+    return rescored_recall(known->list, id, score) || tn_run_scores_recall(&births, id, score);
 }
 
 static tn_status repeat_by_hand(tn_run *run, const tn_run_event *event, const tn_run_scores *births, tn_error *error)
@@ -317,7 +504,7 @@ static tn_status step(tn_run *run, tn_status status, tn_error *error)
 }
 
 /* Together: one stored generation, made again and compared with what is stored. */
-static tn_status repeat_step(tn_run *run, const tn_run_history *history, size_t *at, tn_error *error)
+static tn_status repeat_step(tn_run *run, const run_history *history, size_t *at, tn_error *error)
 {
     tn_status status = TN_OK;
     for (; status == TN_OK && *at < history->event_count && history->events[*at].generation == run->generations;
@@ -354,9 +541,9 @@ static tn_status keep_waiting(tn_run *run, const tn_run_event *event, tn_error *
 /* Together: makes the stored generations again, without evaluating; up to the one that `until` is born in, or all. */
 tn_status tn_run_repeat(tn_run *run, uint64_t until, tn_error *error)
 {
-    tn_run_history history;
-    tn_status status = tn_run_history_read(run->store, tn_evaluator_numbers(&run->job->evaluator),
-                                           run->job->settings.ranks, &history, error);
+    run_history history;
+    tn_status status = run_history_read(run->store, tn_evaluator_numbers(&run->job->evaluator),
+                                        run->job->settings.ranks, &history, error);
     for (size_t i = 0; status == TN_OK && i < history.event_count; i++)
         if (strcmp(history.events[i].kind, "choose") == 0 && tn_choices_have_ids(history.events[i].text))
             tn_evolution_remember(run->evolution);
@@ -370,7 +557,7 @@ tn_status tn_run_repeat(tn_run *run, uint64_t until, tn_error *error)
     for (size_t i = done; status == TN_OK && i < history.event_count; i++)
         if (history.events[i].generation == history.generations)
             status = keep_waiting(run, &history.events[i], error);
-    tn_run_history_clear(&history);
+    run_history_clear(&history);
     return status;
 }
 

@@ -14,11 +14,10 @@
 #include "runtime/base/file.h"
 #include "runtime/field/contour.h"
 #include "runtime/field/field.h"
-#include "runtime/field/normals.h"
-#include "runtime/geometry/boundary_file.h"
+#include "runtime/geometry/boundary_mesh.h"
 #include "runtime/geometry/measure.h"
 #include "runtime/mesh/openmesh.h"
-#include "runtime/scene/draw_meshes.h"
+#include "runtime/scene/draw_mesh.h"
 
 typedef struct tn_target tn_target;
 

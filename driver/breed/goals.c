@@ -7,8 +7,8 @@
 
 #include "driver/breed/inputs.h"
 #include "runtime/base/nearest.h"
+#include "runtime/number/formula.h"
 #include "runtime/number/run.h"
-#include "runtime/number/sentence.h"
 
 void tn_goals_clear(tn_goals *goals)
 {

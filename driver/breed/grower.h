@@ -3,7 +3,7 @@
 #ifndef TARTAN_DRIVER_BREED_GROWER_H
 #define TARTAN_DRIVER_BREED_GROWER_H
 
-#include "driver/program/form_listener.h"
+#include "driver/program/program_scorer.h"
 #include "runtime/base/picture.h"
 #include "runtime/genome/breeding/evolve.h"
 #include "runtime/geometry/guide/guide.h"

@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <xxhash.h>
 
-#include "runtime/base/file_error.h"
+#include "runtime/base/file.h"
 
 static const char *last_part(const char *path)
 {

@@ -7,13 +7,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "driver/breed/beside.h"
+#include "driver/breed/box_text.h"
 #include "driver/breed/inputs.h"
 #include "driver/solid/solid.h"
 #include "runtime/base/buffer.h"
 #include "runtime/base/bytes.h"
 #include "runtime/base/file.h"
-#include "runtime/numeric/numeric.h"
+#include "runtime/math/elementary.h"
 
 #define DEGREES 57.29577951308232
 

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "driver/open/again.h"
+#include "driver/open/open.h"
 #include "runtime/base/array.h"
-#include "runtime/base/length_style.h"
+#include "runtime/base/length.h"
 
 /* ---- offering */
 

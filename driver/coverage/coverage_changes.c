@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "driver/coverage/coverage_parts.h"
+#include "driver/coverage/coverage_changes.h"
 #include "driver/coverage/noticing.h"
 #include "runtime/plan/analysis/coverage.h"
 #include "runtime/plan/match/same.h"

@@ -5,9 +5,8 @@
 #include <string.h>
 
 #include "driver/house/tests.h"
-#include "driver/open/again.h"
-#include "driver/plan/outcome.h"
-#include "driver/plan/value_tests.h"
+#include "driver/open/open.h"
+#include "driver/plan/tests.h"
 #include "runtime/base/array.h"
 #include "runtime/plan/match/rules.h"
 #include "runtime/plan/match/same.h"

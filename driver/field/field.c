@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compiler/notation.h"
+#include "compiler/compile.h"
 
 static tn_status no_surface(const tn_opened *opened, const char *name, tn_error *error)
 {
@@ -88,22 +88,22 @@ void tn_field_warn_of_contour(tn_opened *opened, const tn_contour *c, const char
 {
     if (!c->inside)
         tn_field_warn(opened, W_FIELD_EMPTY, "inside is where the field is below 0", "nothing of the box is inside%s",
-                    c->empty ? "" : ", at this grid");
+                      c->empty ? "" : ", at this grid");
     if (c->missed)
         tn_field_warn(opened, W_FIELD_COARSE, "take a finer --grid to have them whole",
-                    "parts of the form lie between the samples, in %" PRIu64 " cells; (%.6g, %.6g, %.6g) is inside",
-                    c->missed, c->missed_at[0], c->missed_at[1], c->missed_at[2]);
+                      "parts of the form lie between the samples, in %" PRIu64 " cells; (%.6g, %.6g, %.6g) is inside",
+                      c->missed, c->missed_at[0], c->missed_at[1], c->missed_at[2]);
     if (!c->outside)
         tn_field_warn(opened, W_FIELD_FULL, "inside is where the field is below 0; turn its sign round for the rest",
-                    "all of the box is inside");
+                      "all of the box is inside");
     else
         warn_of_cut(opened, c);
     if (c->no_values)
         tn_field_warn(opened, W_FIELD_NO_VALUE, "what has no value is outside",
-                    "%" PRIu64 " samples have no value; the first is (%.6g, %.6g, %.6g)", c->no_values, c->no_value[0],
-                    c->no_value[1], c->no_value[2]);
+                      "%" PRIu64 " samples have no value; the first is (%.6g, %.6g, %.6g)", c->no_values,
+                      c->no_value[0], c->no_value[1], c->no_value[2]);
     if (c->jumps)
         tn_field_warn(opened, W_FIELD_JUMPS, jumps,
-                    "at %" PRIu64 " vertices the field jumps; the first is (%.6g, %.6g, %.6g)", c->jumps, c->jump[0],
-                    c->jump[1], c->jump[2]);
+                      "at %" PRIu64 " vertices the field jumps; the first is (%.6g, %.6g, %.6g)", c->jumps, c->jump[0],
+                      c->jump[1], c->jump[2]);
 }

@@ -4,7 +4,7 @@
 
 #include "driver/open/open.h"
 #include "runtime/field/contour.h"
-#include "runtime/field/meshes.h"
+#include "runtime/field/field.h"
 
 /* Close it in any case. */
 typedef struct tn_open_field {

@@ -3,7 +3,7 @@
 
 #include <stdio.h>
 
-#include "runtime/base/length_style.h"
+#include "runtime/base/length.h"
 
 static const char *text_of(const tn_house *house, uint32_t string)
 {

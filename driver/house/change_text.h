@@ -2,7 +2,7 @@
 #ifndef TARTAN_DRIVER_HOUSE_CHANGE_TEXT_H
 #define TARTAN_DRIVER_HOUSE_CHANGE_TEXT_H
 
-#include "runtime/house/variant/change.h"
+#include "runtime/house/rule/change.h"
 
 /* TRAY.ZONE.STOREY, trays from 1: "2.body.ground". */
 void tn_cell_text(const tn_house *house, uint32_t cell, char *text, size_t size);

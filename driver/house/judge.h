@@ -5,7 +5,7 @@
 #ifndef TARTAN_DRIVER_HOUSE_JUDGE_H
 #define TARTAN_DRIVER_HOUSE_JUDGE_H
 
-#include "driver/open/findings.h"
+#include "driver/open/open.h"
 #include "runtime/house/rule/asked.h"
 
 typedef struct tn_house_judge {

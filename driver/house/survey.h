@@ -8,7 +8,7 @@
 #ifndef TARTAN_DRIVER_HOUSE_SURVEY_H
 #define TARTAN_DRIVER_HOUSE_SURVEY_H
 
-#include "driver/open/findings.h"
+#include "driver/open/open.h"
 #include "runtime/house/house.h"
 
 /* Cells of a zone (a field) and a storey that are as large and may have the same functions. */

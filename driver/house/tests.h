@@ -3,7 +3,7 @@
 #define TARTAN_DRIVER_HOUSE_TESTS_H
 
 #include "compiler/plan/syntax/program.h"
-#include "driver/open/findings.h"
+#include "driver/open/open.h"
 
 /* Runs one block. Failures become diagnostics (E0590), and so does a line that is no house (E1611). Adds to what
  * passed, failed, and failed as it is expected to. */

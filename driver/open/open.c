@@ -6,15 +6,277 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "compiler/common/compilation.h"
 #include "compiler/common/import.h"
-#include "driver/open/attached.h"
 #include "driver/open/files.h"
-#include "driver/open/stdlib_dirs.h"
-#include "driver/open/stdlib_find.h"
-#include "driver/open/suggest_file.h"
+#include "driver/open/missing.h"
+#include "driver/open/stdlib.h"
 #include "runtime/base/file.h"
 #include "runtime/load.h"
 #include "runtime/mesh/openmesh.h"
+
+/* ---- findings of engines, at their places */
+
+bool tn_code_span(const tn_opened *opened, uint32_t offset, tn_span *span)
+{
+    const tn_source_map_record *map =
+        opened->module && offset != TN_NO_OFFSET ? tn_module_place(opened->module, offset) : NULL;
+    if (!map || map->file >= opened->compilation.sources.count)
+        return false;
+    *span = (tn_span){map->file, map->begin, map->end};
+    return true;
+}
+
+bool tn_code_place(const tn_opened *opened, uint32_t offset, tn_place *where)
+{
+    tn_span span;
+    if (!tn_code_span(opened, offset, &span))
+        return false;
+    tn_sources *sources = (tn_sources *)(uintptr_t)&opened->compilation.sources; /* finds its lines late */
+    *where = tn_sources_place(sources, span);
+    return true;
+}
+
+static void place(const tn_opened *opened, const tn_error *error, tn_diagnostic *diagnostic)
+{
+    diagnostic->has_span = tn_code_span(opened, error->code_offset, &diagnostic->span);
+}
+
+tn_diagnostic *tn_finding_error(tn_opened *opened, const tn_error *error)
+{
+    tn_diagnostic *diagnostic = tn_report_error(&opened->compilation.diagnostics, error, NULL, NULL, 0);
+    place(opened, error, diagnostic);
+    return diagnostic;
+}
+
+tn_diagnostic *tn_finding_note(tn_opened *opened, const tn_error *error)
+{
+    tn_diagnostics *list = &opened->compilation.diagnostics;
+    tn_diagnostic *diagnostic = tn_report_bare(list, TN_NOTE, TN_CODE_NONE, "%s", error->message);
+    place(opened, error, diagnostic);
+    if (error->help[0])
+        tn_help(list, diagnostic, "%s", error->help);
+    return diagnostic;
+}
+
+tn_diagnostic *tn_finding_limit(tn_opened *opened, const tn_error *error, const tn_span *otherwise)
+{
+    tn_diagnostics *list = &opened->compilation.diagnostics;
+    tn_span span;
+    bool has_span = tn_code_span(opened, error->code_offset, &span);
+    if (!has_span && otherwise) {
+        span = *otherwise;
+        has_span = true;
+    }
+    for (size_t i = 0; i < list->count; i++) {
+        tn_diagnostic *known = &list->items[i];
+        if (known->limit && known->message && strcmp(known->message, error->message) == 0 &&
+            known->has_span == has_span && (!has_span || memcmp(&known->span, &span, sizeof span) == 0))
+            return known;
+    }
+    tn_diagnostic *note = tn_finding_note(opened, error);
+    note->limit = true;
+    note->has_span = has_span;
+    if (has_span)
+        note->span = span;
+    return note;
+}
+
+tn_diagnostic *tn_finding_uncounted(tn_opened *opened, const char *clause, const tn_error *error)
+{
+    tn_error note;
+    tn_fail(&note, error->status, error->code, "what only `%.80s` keeps out is not counted: %.360s", clause,
+            error->message);
+    tn_error_help(&note, "%s", error->help);
+    note.code_offset = error->code_offset;
+    return tn_finding_limit(opened, &note, NULL);
+}
+
+/* ---- what lies beside a rule file */
+
+enum { BYTES_MAX = 1 << 30 };
+
+/* Where the file is; the caller frees it. */
+static tn_status find(const tn_request *request, char **path, tn_error *error)
+{
+    *path = tn_path_beside(request->user, request->path, "");
+    if (!*path)
+        return tn_fail_memory(error);
+    if (tn_path_exists(*path))
+        return TN_OK;
+    tn_fail(error, TN_IO, E_CANNOT_READ, "there is no file %.300s", *path);
+    if (!tn_suggest_file(*path, error))
+        tn_error_help(error, "a path starts at the folder of the file that names it");
+    return TN_IO;
+}
+
+/* ---- the LDraw library */
+
+/* Reads FOLDER/INNER/NAME; TN_OK with *there false where there is no such file. */
+static tn_status read_there(const char *folder, const char *inner, const char *name, uint8_t **bytes, size_t *size,
+                            bool *there, tn_error *error)
+{
+    char *path;
+    *there = false;
+    if (asprintf(&path, "%s/%s/%s", folder, inner, name) < 0)
+        return tn_fail_memory(error);
+    tn_status status = TN_OK;
+    if (tn_path_exists(path)) {
+        *there = true;
+        status = tn_file_read(path, BYTES_MAX, bytes, size, error);
+    }
+    free(path);
+    return status;
+}
+
+/* The nearest name among the library's parts, where there is a library. */
+static void suggest_part(const char *folder, const char *name, tn_error *error)
+{
+    char *path;
+    if (asprintf(&path, "%s/parts/%s", folder, name) < 0)
+        return;
+    if (tn_suggest_file(path, error)) {
+        const char *near = strrchr(error->help, '/');
+        if (near) {
+            char named[256];
+            snprintf(named, sizeof named, "%s", near + 1);
+            tn_error_help(error, "did you mean `%s", named);
+        }
+    }
+    free(path);
+}
+
+static tn_status read_part(const char *name, uint8_t **bytes, size_t *size, tn_error *error)
+{
+    static const char *const inner[] = {"parts", "p", "PARTS", "P"};
+    const char *own = getenv("LDRAWDIR"), *folder = own && *own ? own : "/usr/share/ldraw";
+    tn_status status = TN_OK;
+    bool there = false;
+    for (size_t i = 0; i < sizeof inner / sizeof *inner && status == TN_OK && !there; i++)
+        status = read_there(folder, inner[i], name, bytes, size, &there, error);
+    if (status != TN_OK || there)
+        return status;
+    tn_fail(error, TN_IO, E_CANNOT_READ, "there is no %.120s in the LDraw library %.200s", name, folder);
+    tn_error_help(
+        error,
+        "name the folder of the library, which has the folders parts and p, by --ldraw or by the variable LDRAWDIR");
+    suggest_part(folder, name, error);
+    return TN_IO;
+}
+
+/* ---- what a kit names */
+
+static tn_status read_bytes(void *context, const tn_request *request, uint8_t **bytes, size_t *size, tn_error *error)
+{
+    char *path;
+    (void)context;
+    if (strcmp(request->extension, TN_LDRAW_LIBRARY) == 0)
+        return read_part(request->path, bytes, size, error);
+    tn_status status = find(request, &path, error);
+    if (status == TN_OK)
+        status = tn_file_read(path, BYTES_MAX, bytes, size, error);
+    free(path);
+    return status;
+}
+
+static tn_status read_mesh(void *context, const tn_request *request, tn_mesh *mesh, tn_error *error)
+{
+    char *path;
+    (void)context;
+    tn_status status = find(request, &path, error);
+    if (status == TN_OK)
+        status = tn_openmesh_read(path, mesh, error);
+    free(path);
+    return status;
+}
+
+const tn_attachments tn_file_attachments = {.bytes = read_bytes, .mesh = read_mesh};
+
+/* ---- opens a file once more, from the texts that were opened before */
+
+/* What is changed, and who finds the texts. */
+typedef struct changing {
+    tn_change_tree *change;
+    void *context;
+} changing;
+
+static void change_trees(void *context, tn_arena *arena, const struct tn_imports *imports)
+{
+    const changing *c = context;
+    for (size_t i = 0; i < imports->count; i++)
+        c->change(c->context, arena, imports->units[i]->tree, i + 1 == imports->count);
+}
+
+static const tn_unit *unit_named(const tn_compilation *compilation, const char *name)
+{
+    for (size_t i = 0; i < compilation->imports->count; i++) {
+        const tn_unit *unit = compilation->imports->units[i];
+        if (strcmp(compilation->sources.files[unit->file].path, name) == 0)
+            return unit;
+    }
+    return NULL;
+}
+
+static tn_input input_of(const tn_compilation *compilation, const tn_unit *unit)
+{
+    const tn_source *source = &compilation->sources.files[unit->file];
+    return (tn_input){source->text, source->size, source->path, unit->identity, unit->recorded};
+}
+
+/* What a `use` led to before. */
+static tn_status resolve(void *context, const tn_request *request, tn_input *found, char *meant, tn_error *error)
+{
+    const tn_compilation *compilation = context;
+    const tn_unit *user = unit_named(compilation, request->user);
+    (void)meant;
+    for (size_t i = 0; user && i < user->use_count; i++)
+        if (user->uses[i].unit && strcmp(user->uses[i].path, request->path) == 0) {
+            *found = input_of(compilation, user->uses[i].unit);
+            return TN_OK;
+        }
+    return tn_fail(error, TN_INVALID, E_IMPORT_NOT_FOUND, "`%.200s` was not used before", request->path);
+}
+
+tn_status tn_opened_params(const tn_opened *opened, tn_param_values *params)
+{
+    const tn_sources *sources = &opened->compilation.sources;
+    const char **items = calloc(sources->count + 1, sizeof *items);
+    *params = (tn_param_values){.items = items};
+    for (size_t i = 0; items && i < sources->count; i++)
+        if (strcmp(sources->files[i].path, TN_SETTING_SOURCE) == 0)
+            items[params->count++] = sources->files[i].text;
+    return items ? TN_OK : TN_MEMORY;
+}
+
+void tn_opened_params_text(const tn_opened *opened, char *text, size_t size)
+{
+    const tn_sources *sources = &opened->compilation.sources;
+    size_t used = 0;
+    text[0] = '\0';
+    for (size_t i = 0; i < sources->count && used < size; i++)
+        if (strcmp(sources->files[i].path, TN_SETTING_SOURCE) == 0)
+            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", sources->files[i].text);
+}
+
+tn_status tn_open_again(const tn_opened *opened, tn_change_tree *change, void *context, size_t test, tn_opened *again)
+{
+    const tn_compilation *before = &opened->compilation;
+    const tn_input input = input_of(before, before->imports->units[before->imports->count - 1]);
+    changing c = {change, context};
+    tn_compile_options options = {.resolver = {resolve, (void *)(uintptr_t)before},
+                                  .watch = opened->module->watch,
+                                  .change = change ? change_trees : NULL,
+                                  .change_context = &c,
+                                  .test = test};
+    *again = (tn_opened){.path = input.name};
+    tn_status status = tn_opened_params(opened, &options.params);
+    if (status == TN_OK)
+        status = tn_open_text(before->notation, &input, &options, again);
+    free((void *)(uintptr_t)options.params.items);
+    return status;
+}
+
+/* ---- opens rule files and modules */
 
 static void start(const char *path, tn_opened *opened)
 {

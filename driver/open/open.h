@@ -7,8 +7,14 @@
 #ifndef TARTAN_DRIVER_OPEN_OPEN_H
 #define TARTAN_DRIVER_OPEN_OPEN_H
 
+#include "compiler/common/compilation.h"
 #include "compiler/compile.h"
 #include "runtime/module/module.h"
+
+/* Files that rule files name and that are no rule files: a kit's meshes, pictures and models. */
+
+/* Reads them from where they lie, beside the file that names them. For several threads at once. */
+extern const tn_attachments tn_file_attachments;
 
 typedef struct tn_opened {
     const char *path;           /* borrowed */
@@ -74,5 +80,48 @@ tn_status tn_open_error(const tn_opened *opened, tn_status status, tn_error *err
 const struct tn_mesh_reader *tn_opened_meshes(const tn_opened *opened);
 
 void tn_close(tn_opened *opened);
+
+/* Opens a file once more, from the texts that were opened before, with something changed in its syntax trees: what it
+ * would mean if it were written otherwise. Nothing is read from a disk.
+ */
+
+/* Called for the tree of each text, those that others use first; main: it is the file itself. What is added to a tree
+ * lives in the arena. */
+typedef void tn_change_tree(void *context, tn_arena *arena, void *tree, bool main);
+
+/* Of a .plan file that was compiled; its params keep their values. `change` may be NULL. test: the params have the
+ * values that the file's test of this number, from 1, says; 0: none. Close it in any case, and before the other one. */
+tn_status tn_open_again(const tn_opened *opened, tn_change_tree *change, void *context, size_t test, tn_opened *again);
+
+/* The values that the params of a .plan file or module were given, which borrow its sources. Free the items. TN_MEMORY,
+ * else TN_OK. */
+tn_status tn_opened_params(const tn_opened *opened, tn_param_values *params);
+
+/* The same in words, "lot=9m, side=right"; empty where there are none, and cut off where there is no room. */
+#define TN_PARAMS_TEXT_MAX 1000u
+void tn_opened_params_text(const tn_opened *opened, char *text, size_t size);
+
+/* ---- what an engine finds, shown where the author wrote it */
+
+/* Adds an engine's error to the diagnostics. */
+tn_diagnostic *tn_finding_error(tn_opened *opened, const tn_error *error);
+
+/* Adds a note with the error's sentence, place and help: something to know, such as a rule that falls back to the
+ * interpreter. */
+tn_diagnostic *tn_finding_note(tn_opened *opened, const tn_error *error);
+
+/* A note that something is not found out since that passes a limit; its place is `otherwise` (NULL: none) where the
+ * error has none. A limit that is there already, with the same sentence at the same place, is returned: each is said
+ * once. */
+tn_diagnostic *tn_finding_limit(tn_opened *opened, const tn_error *error, const tn_span *otherwise);
+
+/* The source span of the code at `offset`; false where the module does not say. */
+bool tn_code_span(const tn_opened *opened, uint32_t offset, tn_span *span);
+
+/* The same as file, line and column. */
+bool tn_code_place(const tn_opened *opened, uint32_t offset, tn_place *place);
+
+/* A note that a clause of this name is in the way of counting what it keeps out (tn_library_effect). */
+tn_diagnostic *tn_finding_uncounted(tn_opened *opened, const char *clause, const tn_error *error);
 
 #endif

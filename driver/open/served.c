@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compiler/common/ldraw_library.h"
+#include "compiler/common/compilation.h"
 #include "driver/open/missing.h"
-#include "driver/open/stdlib_texts.h"
-#include "runtime/geometry/boundary_file.h"
+#include "driver/open/stdlib.h"
+#include "runtime/geometry/boundary_mesh.h"
 
 void tn_served_begin(tn_served_files *files, const tn_served *served, tn_overlay *overlay, void *context)
 {

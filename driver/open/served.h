@@ -28,7 +28,7 @@ void tn_served_begin(tn_served_files *files, const tn_served *served, tn_overlay
 void tn_served_clear(tn_served_files *files);
 
 /* Finds what a text uses or names. The text and its name stay until the files are cleared. Several threads may ask. As
- * a tn_resolve (compiler/common/resolver.h), `context` the files; tn_served_resolver makes it one. */
+ * a tn_resolve (compiler/common/compilation.h), `context` the files; tn_served_resolver makes it one. */
 tn_status tn_served_find(void *context, const tn_request *request, tn_input *found, char *meant, tn_error *error);
 tn_resolver tn_served_resolver(tn_served_files *files);
 

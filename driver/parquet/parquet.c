@@ -1,7 +1,8 @@
 /* The calls by which plans in Parquet are read and written. */
 #include "driver/parquet/parquet.h"
 
-#include "driver/parquet/parquet_data.h"
+#include "driver/parquet/reader.h"
+#include "driver/parquet/writer.h"
 
 const tn_plan_parquet *tn_plan_parquet_calls(void)
 {

@@ -1,14 +1,302 @@
 /* Writes plans in Parquet: row group by row group, in each column by column. */
+#include "driver/parquet/writer.h"
+
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "driver/parquet/parquet_data.h"
-#include "driver/parquet/writing.h"
+#include "driver/parquet/encoding.h"
 #include "runtime/base/array.h"
 #include "runtime/base/bytes.h"
-#include "runtime/base/file_error.h"
+#include "runtime/base/file.h"
 #include "runtime/base/integers.h"
+
+static void plain_write(tn_buffer *out, int64_t value, unsigned bytes);
+
+/* ---- keeps columns of numbers with a dictionary */
+
+#define DICTIONARY_MOST 65536u
+#define SLOTS_FIRST 256u /* a power of two, as all larger ones */
+
+tn_status tn_numbers_new(tn_numbers *numbers, unsigned bytes, size_t page, tn_error *error)
+{
+    *numbers = (tn_numbers){.bytes = bytes,
+                            .places = calloc(page, sizeof *numbers->places),
+                            .slots = calloc(SLOTS_FIRST, sizeof *numbers->slots),
+                            .slot_count = SLOTS_FIRST};
+    bool made = numbers->places && numbers->slots;
+    if (made)
+        tn_numbers_clear(numbers);
+    return made ? TN_OK : tn_fail_memory(error);
+}
+
+void tn_numbers_free(tn_numbers *numbers)
+{
+    free(numbers->places);
+    free(numbers->plain.data);
+    free(numbers->dictionary);
+    free(numbers->slots);
+}
+
+void tn_numbers_clear(tn_numbers *numbers)
+{
+    memset(numbers->slots, 0, numbers->slot_count * sizeof *numbers->slots);
+    numbers->known = 0;
+    numbers->full = numbers->mixed = false;
+    numbers->least = INT64_MAX;
+    numbers->most = INT64_MIN;
+}
+
+/* ---- the dictionary */
+
+/* The slot that has the number, or the empty one where it belongs. */
+static uint32_t *find_slot(const tn_numbers *numbers, int64_t value)
+{
+    size_t last = numbers->slot_count - 1;
+    size_t slot = (size_t)((uint64_t)value * UINT64_C(0x9E3779B97F4A7C15) >> 32) & last;
+    while (numbers->slots[slot] && numbers->dictionary[numbers->slots[slot] - 1] != value)
+        slot = (slot + 1) & last;
+    return &numbers->slots[slot];
+}
+
+/* Room for one number more; half of the slots stay empty. */
+static bool make_number_room(tn_numbers *numbers)
+{
+    if (!tn_array_reserve(&numbers->dictionary, &numbers->known_room, numbers->known, 1, sizeof *numbers->dictionary))
+        return false;
+    if (2 * numbers->known < numbers->slot_count)
+        return true;
+    uint32_t *slots = calloc(2 * numbers->slot_count, sizeof *slots);
+    if (!slots)
+        return false;
+    free(numbers->slots);
+    numbers->slots = slots;
+    numbers->slot_count *= 2;
+    for (size_t i = 0; i < numbers->known; i++)
+        *find_slot(numbers, numbers->dictionary[i]) = (uint32_t)i + 1;
+    return true;
+}
+
+/* Puts the number into the dictionary, where it is new and there is a place left. */
+static bool add_to_dictionary(tn_numbers *numbers, int64_t value, uint32_t **slot)
+{
+    *slot = find_slot(numbers, value);
+    if (**slot || numbers->known == DICTIONARY_MOST)
+        return true;
+    if (!make_number_room(numbers))
+        return false;
+    *slot = find_slot(numbers, value);
+    numbers->dictionary[numbers->known] = value;
+    **slot = (uint32_t)++numbers->known;
+    return true;
+}
+
+/* From now on numbers are written as they are, those of this page too. */
+static void leave_dictionary(tn_numbers *numbers, size_t before)
+{
+    numbers->full = true;
+    for (size_t i = 0; i < before; i++)
+        plain_write(&numbers->plain, numbers->dictionary[numbers->places[i]], numbers->bytes);
+}
+
+bool tn_numbers_add(tn_numbers *numbers, int64_t value)
+{
+    size_t i = numbers->count++;
+    uint32_t *slot = NULL;
+    numbers->least = value < numbers->least ? value : numbers->least;
+    numbers->most = value > numbers->most ? value : numbers->most;
+    if (!numbers->full && !add_to_dictionary(numbers, value, &slot))
+        return false;
+    if (slot && *slot) {
+        numbers->places[i] = (uint16_t)(*slot - 1);
+        return true;
+    }
+    if (!numbers->full)
+        leave_dictionary(numbers, i);
+    plain_write(&numbers->plain, value, numbers->bytes);
+    return !numbers->plain.failed;
+}
+
+/* Appends a number of 4 or 8 bytes, the lowest first. */
+static void plain_write(tn_buffer *out, int64_t value, unsigned bytes)
+{
+    uint8_t written[8];
+    tn_put_u64(written, (uint64_t)value);
+    tn_buffer_append(out, (const char *)written, bytes);
+}
+
+enum tn_parquet_encoding tn_numbers_page(tn_numbers *numbers, tn_buffer *body)
+{
+    static const char width[] = {16};
+    if (numbers->full) {
+        tn_buffer_append(body, numbers->plain.data, numbers->plain.size);
+        numbers->plain.size = 0;
+    } else {
+        tn_buffer_append(body, width, 1);
+        tn_shorts_write(body, numbers->places, numbers->count);
+    }
+    numbers->mixed = numbers->mixed || numbers->full;
+    numbers->count = 0;
+    return numbers->full ? TN_ENCODING_PLAIN : TN_ENCODING_RLE_DICTIONARY;
+}
+
+/* Appends the dictionary. */
+static void numbers_dictionary(const tn_numbers *numbers, tn_buffer *body)
+{
+    for (size_t i = 0; i < numbers->known; i++)
+        plain_write(body, numbers->dictionary[i], numbers->bytes);
+}
+
+/* ---- puts the pages of a file of plans together */
+
+/* Compresses what is in w->body as a page of that column. */
+static tn_status end_body(tn_parquet_writing *w, unsigned column, enum tn_parquet_encoding encoding, size_t values,
+                          tn_error *error)
+{
+    tn_chunk *chunk = &w->chunks[column];
+    tn_page_kind kind = {TN_PAGE_DATA, encoding, values};
+    bool done = tn_page_write(&w->packer, kind, &w->body, &chunk->pages, &chunk->loose);
+    chunk->values += values;
+    w->body.size = 0;
+    return done ? TN_OK : tn_fail_memory(error);
+}
+
+/* ---- ranks, lengths, totals */
+
+static enum tn_parquet_encoding write_ranks(tn_parquet_writing *w)
+{
+    if (w->rank_bytes == 0) {
+        tn_delta_end(&w->ranks, &w->body);
+        return TN_ENCODING_DELTA;
+    }
+    tn_buffer_append(&w->body, w->wide_ranks.data, w->wide_ranks.size);
+    w->wide_ranks.size = 0;
+    return TN_ENCODING_PLAIN;
+}
+
+static tn_status end_numbers(tn_parquet_writing *w, tn_error *error)
+{
+    tn_status status = end_body(w, 0, write_ranks(w), w->in_page, error);
+    if (status == TN_OK)
+        status = end_body(w, 1, tn_numbers_page(&w->length, &w->body), w->in_page, error);
+    if (status == TN_OK && w->has_total)
+        status = end_body(w, 2, tn_numbers_page(&w->total, &w->body), w->in_page, error);
+    return status;
+}
+
+/* ---- lists */
+
+/* Levels stand behind their size. */
+static void end_levels(tn_buffer *body, size_t begin)
+{
+    if (!body->failed)
+        tn_put_u32((uint8_t *)body->data + begin, (uint32_t)(body->size - begin - 4));
+}
+
+/* The levels of a list, which are those of all lists: where a plan begins, and where it has no tray. */
+static void write_levels(tn_parquet_writing *w)
+{
+    tn_buffer *body = &w->body;
+    size_t begin = body->size;
+    tn_buffer_append(body, "\0\0\0", 4);
+    tn_bits_write(body, w->goes_on, w->places);
+    end_levels(body, begin);
+    begin = body->size;
+    tn_buffer_append(body, "\0\0\0", 4);
+    if (w->some_empty)
+        tn_bits_write(body, w->holds, w->places);
+    else
+        tn_run_write(body, 1, 1, w->places);
+    end_levels(body, begin);
+}
+
+/* The field's values of the page's trays. */
+static void write_field(tn_parquet_writing *w, uint32_t field)
+{
+    const uint8_t *number = w->tray_numbers;
+    uint32_t mask = UINT32_MAX >> (32 - 8 * w->tray_bytes);
+    size_t begin = w->body.size;
+    uint8_t *values = tn_bytes_begin(&w->body, w->trays);
+    if (!values)
+        return;
+    for (size_t i = 0; i < w->trays; i++, number += w->tray_bytes) {
+        values[i] = (uint8_t)tn_tray_value(w->schema, tn_get_u32(number) & mask, field);
+        w->seen[field][values[i]] = 1;
+    }
+    tn_bytes_end(&w->body, begin, w->trays);
+}
+
+static tn_status end_lists(tn_parquet_writing *w, tn_error *error)
+{
+    static const char width[] = {8};
+    tn_status status = TN_OK;
+    for (uint32_t f = 0; status == TN_OK && f < w->schema->field_count; f++) {
+        write_levels(w);
+        tn_buffer_append(&w->body, width, 1);
+        write_field(w, f);
+        status = end_body(w, tn_first_field_column(w) + f, TN_ENCODING_RLE_DICTIONARY, w->places, error);
+    }
+    return status;
+}
+
+/* ---- */
+
+static tn_status parquet_end_lines(tn_parquet_writing *w, tn_error *error)
+{
+    if (w->line_count == 0)
+        return TN_OK;
+    tn_buffer_append(&w->body, w->lines.data, w->lines.size);
+    size_t count = w->line_count;
+    w->lines.size = w->line_count = 0;
+    return end_body(w, tn_column_count(w) - 1, TN_ENCODING_PLAIN, count, error);
+}
+
+/* Compresses the page in hand, and begins another. */
+static tn_status parquet_end_page(tn_parquet_writing *w, tn_error *error)
+{
+    if (w->in_page == 0)
+        return TN_OK;
+    tn_status status = end_numbers(w, error);
+    if (status == TN_OK)
+        status = end_lists(w, error);
+    memset(w->goes_on, 0, w->places_room / 8);
+    memset(w->holds, 0, w->places_room / 8);
+    w->in_page = w->trays = w->places = 0;
+    w->some_empty = false;
+    return status;
+}
+
+static size_t write_values(tn_parquet_writing *w, uint32_t field)
+{
+    const tn_schema *schema = w->schema;
+    uint32_t first = schema->value_start[field], count = schema->value_start[field + 1] - first;
+    for (uint32_t v = first; v < first + count; v++) {
+        const char *text = tn_text(schema->module, schema->values[v].spelling);
+        size_t size = strlen(text);
+        plain_write(&w->body, (int64_t)size, 4);
+        tn_buffer_append(&w->body, text, size);
+    }
+    return count;
+}
+
+/* The dictionary page of a column, in w->body; false where it has none. *values: how many. */
+static bool parquet_dictionary(tn_parquet_writing *w, unsigned column, size_t *values)
+{
+    unsigned first = tn_first_field_column(w);
+    bool is_number = column > 0 && column < first,
+         is_field = column >= first && column - first < w->schema->field_count;
+    w->body.size = 0;
+    if (is_field)
+        *values = write_values(w, column - first);
+    if (is_number) {
+        const tn_numbers *numbers = column == 1 ? &w->length : &w->total;
+        *values = numbers->known;
+        numbers_dictionary(numbers, &w->body);
+    }
+    return is_number || is_field;
+}
+
+/* ---- writes plans in Parquet */
 
 #define GROUP_DEFAULT 1000000u
 #define PAGE_PLANS 32768u             /* plans of a page at most */
@@ -93,7 +381,7 @@ static tn_status write_column(tn_plan_writer *writer, unsigned column, tn_chunk_
     size_t values;
     tn_status status = TN_OK;
     *place = (tn_chunk_place){.dictionary = w->offset};
-    if (tn_parquet_dictionary(w, column, &values)) {
+    if (parquet_dictionary(w, column, &values)) {
         tn_page_kind kind = {TN_PAGE_DICTIONARY, TN_ENCODING_PLAIN, values};
         bool packed = tn_page_write(&w->packer, kind, &w->body, &page, &place->loose);
         status = packed ? write_out(writer, &page, error) : tn_fail_memory(error);
@@ -130,9 +418,9 @@ static tn_status end_group(tn_plan_writer *writer, tn_error *error)
     tn_chunk_place places[TN_PARQUET_COLUMNS_MAX];
     if (w->in_group == 0)
         return TN_OK;
-    tn_status status = tn_parquet_end_page(w, error);
+    tn_status status = parquet_end_page(w, error);
     if (status == TN_OK)
-        status = tn_parquet_end_lines(w, error);
+        status = parquet_end_lines(w, error);
     for (unsigned c = 0; status == TN_OK && c < tn_column_count(w); c++)
         status = write_column(writer, c, &places[c], error);
     if (status != TN_OK)
@@ -151,7 +439,7 @@ static bool encode_rank(tn_parquet_writing *w, const mpz_t rank)
     out->size = 0;
     if (w->rank_bytes == 0) {
         int64_t number = (int64_t)mpz_get_ui(rank);
-        tn_plain_write(out, number, 8);
+        plain_write(out, number, 8);
         return !out->failed && tn_delta_add(&w->ranks, number);
     }
     size_t used = (mpz_sizeinbase(rank, 2) + 7) / 8;
@@ -253,7 +541,7 @@ static tn_status add_line(tn_plan_writer *writer, const tn_tray *trays, size_t l
         return tn_fail_memory(error);
     tn_put_u32((uint8_t *)w->lines.data + begin, (uint32_t)(w->lines.size - begin - 4));
     w->line_count++;
-    return w->lines.size >= LINES_BYTES ? tn_parquet_end_lines(w, error) : TN_OK;
+    return w->lines.size >= LINES_BYTES ? parquet_end_lines(w, error) : TN_OK;
 }
 
 tn_status tn_parquet_writer_write(tn_plan_writer *writer, const mpz_t rank, const tn_tray *trays, size_t length,
@@ -276,7 +564,7 @@ tn_status tn_parquet_writer_write(tn_plan_writer *writer, const mpz_t rank, cons
     if (w->has_lines)
         status = add_line(writer, trays, length, error);
     if (status == TN_OK && (w->in_page == PAGE_PLANS || w->trays >= PAGE_TRAYS))
-        status = tn_parquet_end_page(w, error);
+        status = parquet_end_page(w, error);
     return status == TN_OK && w->in_group == w->group_most ? end_group(writer, error) : status;
 }
 

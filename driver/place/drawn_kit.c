@@ -6,7 +6,7 @@
 
 #include "driver/open/missing.h"
 #include "driver/place/drawn.h"
-#include "driver/place/place.h"
+#include "driver/place/kit.h"
 #include "runtime/base/file.h"
 #include "runtime/place/measure.h"
 #include "runtime/place/write.h"

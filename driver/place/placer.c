@@ -7,11 +7,11 @@
 #include <string.h>
 
 #include "compiler/kit/with_rules.h"
-#include "driver/open/attached.h"
 #include "driver/open/files.h"
+#include "driver/open/open.h"
 #include "driver/place/kit.h"
 #include "driver/place/shape.h"
-#include "runtime/place/conditions.h"
+#include "runtime/place/measure.h"
 #include "runtime/place/search/score.h"
 
 struct tn_placer {

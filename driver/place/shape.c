@@ -1,13 +1,146 @@
 /* Turns placed models into faces. */
 #include "driver/place/shape.h"
 
+#include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "driver/place/bodies.h"
-#include "driver/place/colours.h"
-#include "driver/place/groups.h"
+#include "runtime/base/array.h"
+#include "runtime/geometry/union/union.h"
+#include "runtime/place/grow.h"
+
+typedef struct colour_groups {
+    int32_t *items; /* LDraw colours */
+    size_t count, capacity;
+} colour_groups;
+
+/* ---- LDraw's common colours, as its colour table gives them (LDConfig.ldr), to the nearest of 256 steps */
+
+static const struct {
+    int32_t number;
+    uint32_t rgb;
+} colours[] = {
+    {0, 0x1b2a34},   {1, 0x1e5aa8},   {2, 0x00852b},   {3, 0x069d9f},   {4, 0xb40000},   {5, 0xd3359d},
+    {6, 0x543324},   {7, 0x8a928d},   {8, 0x545955},   {9, 0x97cbd9},   {10, 0x58ab41},  {14, 0xfac80a},
+    {15, 0xf4f4f4},  {19, 0xb0a06f},  {22, 0x671f81},  {25, 0xd67923},  {26, 0x901f76},  {27, 0xa5ca18},
+    {28, 0x897d62},  {70, 0x5f3109},  {71, 0xa3a2a4},  {72, 0x646464},  {73, 0x7396c8},  {78, 0xffc995},
+    {84, 0xaa7d55},  {85, 0x441a91},  {272, 0x19325a}, {288, 0x00451a}, {308, 0x352100}, {320, 0x720012},
+    {326, 0xe2f99a}, {378, 0x708e7c}, {379, 0x70819a}, {484, 0x91501c},
+};
+
+/* In sRGB, 0 to 1; a colour that is not known is a light grey. */
+static void ldraw_colour(int32_t number, double rgb[3])
+{
+    uint32_t found = 0xb8b8b8;
+    for (size_t i = 0; i < sizeof colours / sizeof *colours; i++)
+        if (colours[i].number == number)
+            found = colours[i].rgb;
+    for (int k = 0; k < 3; k++)
+        rgb[k] = (found >> (16 - 8 * k) & 255) / 255.0;
+}
+
+/* ---- the colours of a model, each once; they are few, so they are looked for one after the other */
+
+static bool group_of(colour_groups *list, int32_t colour, uint32_t *group)
+{
+    for (*group = 0; *group < list->count; ++*group)
+        if (list->items[*group] == colour)
+            return true;
+    if (!tn_array_reserve(&list->items, &list->capacity, list->count, 1, sizeof *list->items))
+        return false;
+    list->items[list->count++] = colour;
+    return true;
+}
+
+/* Adds the model's colours. *groups: [part] the number of its colour, which the caller frees in any case, as the
+ * items. TN_MEMORY. */
+static tn_status colour_groups_add(colour_groups *list, const tn_placed_model *model, uint32_t **groups,
+                                   tn_error *error)
+{
+    *groups = malloc((model->count + 1) * sizeof **groups);
+    for (size_t i = 0; *groups && i < model->count; i++)
+        if (!group_of(list, model->parts[i].frame.colour, &(*groups)[i]))
+            return tn_fail_memory(error);
+    return *groups ? TN_OK : tn_fail_memory(error);
+}
+
+/* ---- closed meshes */
+
+/* The bodies as cells of a union, with their parts' groups. */
+static tn_status list_cells(const tn_module *module, const tn_placed_model *model, const tn_bodies *bodies,
+                            const uint32_t *groups, tn_cut_box **cells, uint32_t **cell_groups, tn_error *error)
+{
+    *cells = malloc((bodies->count + 1) * sizeof **cells);
+    *cell_groups = malloc((bodies->count + 1) * sizeof **cell_groups);
+    if (!*cells || !*cell_groups)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < bodies->count; i++) {
+        tn_body_shape(module, model, &bodies->items[i], &(*cells)[i]);
+        (*cell_groups)[i] = groups[bodies->items[i].part];
+    }
+    return bodies->count > 0 ? TN_OK : tn_no_bodies(error);
+}
+
+/* The union's groups are cells: they become colours. */
+static tn_status take_mesh(tn_union *u, const uint32_t *cell_groups, const colour_groups *list, tn_mesh *mesh,
+                           unsigned char (**palette)[3], tn_error *error)
+{
+    *mesh = u->mesh;
+    u->mesh = (tn_mesh){0};
+    free(mesh->group_names);
+    mesh->group_names = calloc(list->count + 1, sizeof *mesh->group_names);
+    *palette = calloc(list->count + 1, sizeof **palette);
+    if (!mesh->group_names || !*palette)
+        return tn_fail_memory(error);
+    for (size_t f = 0; f < mesh->face_count; f++)
+        mesh->face_group[f] = cell_groups[mesh->face_group[f]];
+    mesh->group_count = (uint32_t)list->count;
+    for (size_t i = 0; i < list->count; i++) {
+        double rgb[3];
+        ldraw_colour(list->items[i], rgb);
+        snprintf(mesh->group_names[i], sizeof *mesh->group_names, "colour-%d", list->items[i]);
+        for (int k = 0; k < 3; k++)
+            (*palette)[i][k] = (unsigned char)(255 * rgb[k] + 0.5);
+    }
+    return TN_OK;
+}
+
+tn_status tn_placed_mesh(const tn_module *module, const tn_placed_model *model, tn_mesh *mesh,
+                         unsigned char (**palette)[3], tn_error *error)
+{
+    tn_bodies bodies = {0};
+    tn_placed_joints joints;
+    colour_groups list = {0};
+    uint32_t *groups, *cell_groups = NULL;
+    tn_cut_box *cells = NULL;
+    tn_union u = {0};
+    *mesh = (tn_mesh){0};
+    *palette = NULL;
+    tn_status status = colour_groups_add(&list, model, &groups, error);
+    tn_status found = tn_placed_joints_find(module, model, NULL, &joints, error);
+    status = status == TN_OK ? found : status;
+    if (status == TN_OK)
+        status = tn_bodies_list(module, model, &joints, &bodies, error);
+    if (status == TN_OK)
+        status = list_cells(module, model, &bodies, groups, &cells, &cell_groups, error);
+    if (status == TN_OK)
+        status = tn_union_make(cells, bodies.count, &u, error);
+    if (status == TN_OK)
+        status = take_mesh(&u, cell_groups, &list, mesh, palette, error);
+    tn_union_clear(&u);
+    tn_placed_joints_clear(&joints);
+    tn_bodies_clear(&bodies);
+    free(cells);
+    free(cell_groups);
+    free(groups);
+    free(list.items);
+    return status;
+}
+
+/* ---- placed models as faces */
 
 enum { STUD_SIDES = 8, BOX_FACES = 6 };
 static const double ldu = 0.4, stud_radius = 6, stud_height = 4; /* millimetres; LDU */
@@ -223,13 +356,13 @@ static tn_status take_view(drawing *d, const tn_placed_joints *joints, const uin
 }
 
 /* With marks, groups are plain and marked; otherwise colours. */
-static tn_status make_palette(const tn_colour_groups *list, bool marks, double (**palette)[3], tn_error *error)
+static tn_status make_palette(const colour_groups *list, bool marks, double (**palette)[3], tn_error *error)
 {
     *palette = calloc(list->count + 2, sizeof **palette);
     if (!*palette)
         return tn_fail_memory(error);
     for (size_t i = 0; i < list->count && !marks; i++)
-        tn_ldraw_colour(list->items[i], (*palette)[i]);
+        ldraw_colour(list->items[i], (*palette)[i]);
     for (int k = 0; k < 3 && marks; k++) {
         (*palette)[0][k] = 0.9;
         (*palette)[1][k] = k == 0 ? 0.85 : 0.1;
@@ -241,12 +374,12 @@ tn_status tn_placed_draw(const tn_module *module, const tn_placed_model *model, 
                          const bool *marked, const char *title, tn_picture *to, tn_error *error)
 {
     drawing d = {.module = module, .model = model, .shown = model->count};
-    tn_colour_groups list = {0};
+    colour_groups list = {0};
     uint32_t *groups;
     double(*palette)[3] = NULL;
     tn_view *view = NULL;
     tn_place_unit(module, d.unit);
-    tn_status status = tn_colour_groups_add(&list, model, &groups, error);
+    tn_status status = colour_groups_add(&list, model, &groups, error);
     if (status == TN_OK)
         status = find_studs(&d, error);
     for (size_t i = 0; i < model->count && marked && status == TN_OK; i++)
@@ -269,14 +402,14 @@ tn_status tn_placed_draw(const tn_module *module, const tn_placed_model *model, 
 }
 
 /* The view of one of several models. */
-static tn_status take_shape(const tn_placed_shape *shape, double width, tn_colour_groups *list, tn_view **view,
+static tn_status take_shape(const tn_placed_shape *shape, double width, colour_groups *list, tn_view **view,
                             tn_error *error)
 {
     drawing d = {.module = shape->module, .model = shape->model, .shown = shape->model->count, .width = width};
     tn_placed_joints joints;
     uint32_t *groups;
     tn_place_unit(shape->module, d.unit);
-    tn_status status = tn_colour_groups_add(list, shape->model, &groups, error);
+    tn_status status = colour_groups_add(list, shape->model, &groups, error);
     tn_status found = tn_placed_joints_find(shape->module, shape->model, NULL, &joints, error);
     status = status == TN_OK ? found : status;
     if (status == TN_OK)
@@ -295,7 +428,7 @@ tn_status tn_placed_draw_many(const tn_placed_shape *shapes, const char *const *
 {
     enum { SMALL = 200 };
     tn_view **views = calloc(count + 1, sizeof *views);
-    tn_colour_groups list = {0};
+    colour_groups list = {0};
     double(*palette)[3] = NULL;
     tn_status status = views ? TN_OK : tn_fail_memory(error);
     for (size_t i = 0; i < count && status == TN_OK; i++)
@@ -334,7 +467,7 @@ tn_status tn_placed_draw_steps(const tn_module *module, const tn_placed_model *m
 {
     enum { STEPS_MAX = 200, LABEL = 24 };
     drawing d = {.module = module, .model = model};
-    tn_colour_groups list = {0};
+    colour_groups list = {0};
     uint32_t *groups;
     double(*palette)[3] = NULL;
     tn_view *views[STEPS_MAX] = {NULL};
@@ -351,7 +484,7 @@ tn_status tn_placed_draw_steps(const tn_module *module, const tn_placed_model *m
         labels[i] = texts[i];
     }
     tn_place_unit(module, d.unit);
-    tn_status status = tn_colour_groups_add(&list, model, &groups, error);
+    tn_status status = colour_groups_add(&list, model, &groups, error);
     if (status == TN_OK)
         status = find_studs(&d, error);
     if (status == TN_OK)

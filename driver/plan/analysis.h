@@ -6,7 +6,7 @@
 #ifndef TARTAN_DRIVER_PLAN_ANALYSIS_H
 #define TARTAN_DRIVER_PLAN_ANALYSIS_H
 
-#include "driver/open/findings.h"
+#include "driver/open/open.h"
 #include "runtime/plan/analysis/analysis.h"
 
 /* The schemas that the rules and libraries of the named file are about, and the analysis of each. */

@@ -77,21 +77,11 @@ typedef struct tn_explain_rows {
     unsigned *depths;
     uint32_t count;
 } tn_explain_rows;
-bool tn_explain_rows_make(const tn_explanation *why, bool full, tn_explain_rows *rows);
-void tn_explain_rows_clear(tn_explain_rows *rows);
 
-/* ---- pieces that the text and whoever makes a message of it share (explain_words.c) */
-
-/* "tray 3", "trays 2-3, 5". */
-void tn_words_stretches(const tn_explanation *why, const tn_why *node, tn_buffer *out);
-void tn_words_stretch(tn_stretch stretch, tn_buffer *out);
-
-/* Is there a place to tell of where a node matched? An `and` of the whole plan has none but that. */
-bool tn_words_places(const tn_explanation *why, const tn_why *node);
+/* ---- pieces that the text and whoever makes a message of it share */
 
 /* What there is to say about a node beside its text: where it matched, what it counted, what was closest. */
 void tn_words_evidence(const tn_explanation *why, const tn_why *node, tn_buffer *out);
-void tn_words_gap(const tn_explanation *why, uint32_t index, const tn_gap *gap, tn_buffer *out);
 
 /* "width 8', body open:8'": a tray's values that do not meet a specifier. */
 void tn_words_wrong(const tn_explanation *why, const tn_why *node, tn_buffer *out);

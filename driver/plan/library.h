@@ -5,8 +5,23 @@
 #ifndef TARTAN_DRIVER_PLAN_LIBRARY_H
 #define TARTAN_DRIVER_PLAN_LIBRARY_H
 
-#include "driver/open/findings.h"
+#include "driver/open/open.h"
 #include "runtime/plan/library/library.h"
+#include "runtime/plan/match/rules.h"
+
+/* The clauses of a library as a set of rules to match plans against, for telling which of them drop a plan. */
+
+/* Rules in the order of the library's clauses. */
+tn_status tn_clause_rules_new(const tn_schema *schema, const tn_library_record *library,
+                              const tn_rules_options *options, tn_rules **rules, tn_error *error);
+
+/* Does clause i (of the library's) drop a plan with these result bits? */
+static inline bool tn_clause_drops(const tn_module *module, const tn_library_record *library, size_t i,
+                                   const uint64_t *bits)
+{
+    bool holds = bits[i / 64] >> (i % 64) & 1;
+    return holds == (module->CLAUSE_records[library->clause_first + i].kind == TN_CLAUSE_PRUNE);
+}
 
 /* The LIBRARY record named so; for NULL the only one of the file itself, or, where it has none, the only one that it
  * uses. TN_INVALID (E0905) lists the names there are. */

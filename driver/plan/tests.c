@@ -1,18 +1,197 @@
 /* Runs test blocks by both engines, and says why cases fail. */
 #include "driver/plan/tests.h"
 
-#include "driver/plan/value_tests.h"
-
 #include <stdlib.h>
 #include <string.h>
 
+#include "compiler/plan/syntax/program.h"
 #include "driver/house/tests.h"
-#include "driver/plan/clauses.h"
+#include "driver/open/open.h"
 #include "driver/plan/explain.h"
 #include "driver/plan/library.h"
-#include "driver/plan/outcome.h"
-#include "driver/plan/with.h"
+#include "runtime/plan/measure/amount.h"
+#include "runtime/plan/measure/named.h"
 #include "runtime/plan/text/text.h"
+
+typedef struct tn_with {
+    size_t test; /* the number of the test that it is opened for; 0: of none */
+    tn_opened opened;
+} tn_with;
+
+static void with_said(tn_with *with, tn_opened *opened, const tn_test_block *block);
+static void with_clear(tn_with *with);
+
+/* ---- does a case come out? */
+
+/* Is the clause called `name` among those that drop the plan? */
+static bool is_reason(const tn_module *module, const tn_library_record *library, const tn_test_case *test,
+                      const char *name, const uint64_t *bits)
+{
+    if (strcmp(name, "trays") == 0 && tn_length_drops(library, test))
+        return true;
+    for (size_t i = 0; i < library->clause_count; i++)
+        if (strcmp(tn_text(module, module->CLAUSE_records[library->clause_first + i].name), name) == 0 &&
+            tn_clause_drops(module, library, i, bits))
+            return true;
+    return false;
+}
+
+static bool is_dropped(const tn_module *module, const tn_library_record *library, const tn_test_case *test,
+                       const uint64_t *bits)
+{
+    if (tn_length_drops(library, test))
+        return true;
+    for (size_t i = 0; i < library->clause_count; i++)
+        if (tn_clause_drops(module, library, i, bits))
+            return true;
+    return false;
+}
+
+bool tn_case_comes_out(const tn_module *module, const tn_test_block *block, const tn_test_case *test,
+                       const uint64_t *bits)
+{
+    const tn_library_record *library = block->is_library ? &module->LIBRARY_records[block->index] : NULL;
+    bool matched = !library && (bits[0] & 1);
+    switch (test->expectation) {
+    case TN_EXPECT_MATCH:
+        return matched;
+    case TN_EXPECT_REJECT:
+        return !matched;
+    case TN_EXPECT_KEEP:
+        return !is_dropped(module, library, test, bits);
+    case TN_EXPECT_DROP:
+    case TN_EXPECT_VALUE: /* tn_value_test */
+        break;
+    }
+    for (size_t i = 0; i < test->by_count; i++)
+        if (!is_reason(module, library, test, test->by[i], bits))
+            return false;
+    return is_dropped(module, library, test, bits);
+}
+
+/* ---- test cases of measures */
+
+tn_status tn_value_tests_new(tn_value_tests *values, tn_opened *opened, const tn_test_block *tests, tn_error *error)
+{
+    size_t longest = 0;
+    *values = (tn_value_tests){.opened = opened, .tests = tests};
+    for (size_t i = 0; i < tests->case_count; i++)
+        longest = tests->cases[i].length > longest ? tests->cases[i].length : longest;
+    values->trays = malloc(sizeof *values->trays * (longest + 1));
+    if (!values->trays)
+        return tn_fail_memory(error);
+    tn_status status = tn_schema_new(opened->module, tests->schema, 0, &values->schema, error);
+    return status == TN_OK ? tn_plan_vm_new(values->schema, longest, &values->vm, error) : status;
+}
+
+void tn_value_tests_clear(tn_value_tests *values)
+{
+    tn_plan_vm_free(values->vm);
+    tn_schema_free(values->schema);
+    free(values->trays);
+    *values = (tn_value_tests){0};
+}
+
+/* value: NULL where there is none. */
+static const char *report(const tn_value_tests *values, const tn_test_case *test, mpq_srcptr value, const mpq_t wanted)
+{
+    const tn_measure_record *measure = &values->opened->module->MEASURE_records[values->tests->index];
+    tn_amount_unit unit =
+        tn_amount_unit_of(values->schema, tn_named_measure_power(values->opened->module, values->tests->index));
+    tn_diagnostics *list = &values->opened->compilation.diagnostics;
+    tn_buffer is = {0}, should = {0}, plan = {0};
+    if (value)
+        tn_amount_write(unit, value, &is);
+    tn_amount_write(unit, wanted, &should);
+    tn_diagnostic *d =
+        tn_report(list, E_TEST_FAILED, test->span, "`%s` is %s for this plan, not %s", values->tests->subject,
+                  is.data ? is.data : "nothing", should.data ? should.data : "?");
+    if (test->doc)
+        tn_note(list, d, NULL, "expected because: %s", test->doc);
+    if (tn_plan_write_line(values->schema, values->trays, test->length, &plan))
+        tn_note(list, d, NULL, "plan: %s", plan.data ? plan.data : "");
+    tn_span place = {measure->file, measure->begin, measure->end};
+    tn_note(list, d, &place, "`%s`", values->tests->subject);
+    free(is.data);
+    free(should.data);
+    free(plan.data);
+    return d->message;
+}
+
+tn_status tn_value_test(tn_value_tests *values, size_t i, bool *good, const char **message, tn_error *error)
+{
+    *message = NULL;
+    const tn_test_case *test = &values->tests->cases[i];
+    bool has = false;
+    for (size_t k = 0; k < test->length; k++)
+        values->trays[k] = tn_schema_tray(values->schema, test->values + k * values->schema->field_count);
+    mpq_t value, wanted;
+    mpq_inits(value, wanted, NULL);
+    tn_status status = tn_plan_vm_plan(values->vm, values->trays, test->length, error);
+    if (status == TN_OK)
+        status = tn_plan_vm_measure(values->vm, values->tests->index, value, &has, error);
+    if (status == TN_OK) {
+        mpq_set_str(wanted, test->value, 10);
+        *good = has && mpq_equal(value, wanted);
+        if (!*good && !test->todo)
+            *message = report(values, test, has ? value : NULL, wanted);
+    }
+    mpq_clears(value, wanted, NULL);
+    return status;
+}
+
+/* ---- the file as it is for the cases of a test that gives params values: compiled once more, with these
+ *
+ * It borrows the file and is kept from one block of the same test to the next. Clear it in any case, before the file is
+ * closed. */
+
+/* Warnings are about the file as it is. */
+static void forget_warnings(tn_opened *opened)
+{
+    tn_diagnostics *list = &opened->compilation.diagnostics;
+    tn_diagnostics_clear(list);
+    tn_diagnostics_init(list, &opened->compilation.sources);
+}
+
+/* Opens it for the block, unless it is. What does not compile so is said in the diagnostics of the file, TN_INVALID. */
+static tn_status with_open(tn_with *with, tn_opened *opened, const tn_test_block *block, tn_error *error)
+{
+    if (with->test == block->with)
+        return TN_OK;
+    with_clear(with);
+    with->test = block->with;
+    tn_status status = tn_open_again(opened, NULL, NULL, block->with, &with->opened);
+    if (status == TN_OK) {
+        with->opened.module->watch = opened->module->watch;
+        forget_warnings(&with->opened);
+    } else if (status == TN_INVALID) {
+        tn_diagnostics_keep_errors(&with->opened.compilation.diagnostics);
+        with_said(with, opened, block);
+        with_clear(with);
+    } else {
+        status = tn_open_error(&with->opened, status, error);
+        with_clear(with);
+    }
+    return status;
+}
+
+/* Moves what was said since to the diagnostics of the file, with a note of the values. */
+static void with_said(tn_with *with, tn_opened *opened, const tn_test_block *block)
+{
+    tn_diagnostics *list = &with->opened.compilation.diagnostics;
+    for (size_t i = 0; i < list->count; i++)
+        tn_note(list, &list->items[i], &block->settings, "with these values");
+    tn_diagnostics_move(list, &opened->compilation.diagnostics, 0);
+}
+
+static void with_clear(tn_with *with)
+{
+    if (with->test)
+        tn_close(&with->opened);
+    *with = (tn_with){0};
+}
+
+/* ---- running blocks by both engines */
 
 #define EXPLAINED_LINES 12 /* of one rule, in a failure */
 
@@ -313,7 +492,7 @@ static tn_status run_in_turn(tn_opened *opened, size_t i, tn_with *with, uint32_
     block b = {.opened = opened, .module = opened->module, .tests = own, .shown = own};
     tn_error error = {0};
     if (own->with) {
-        tn_status status = tn_with_open(with, opened, own, &error);
+        tn_status status = with_open(with, opened, own, &error);
         if (status == TN_INVALID) /* which is said */
             return status;
         if (status != TN_OK) {
@@ -328,7 +507,7 @@ static tn_status run_in_turn(tn_opened *opened, size_t i, tn_with *with, uint32_
     if (status != TN_OK)
         tn_finding_error(b.opened, &error);
     if (own->with)
-        tn_with_said(with, opened, own);
+        with_said(with, opened, own);
     return status;
 }
 
@@ -354,7 +533,7 @@ tn_status tn_tests_run(tn_opened *opened, uint32_t max_states, const tn_test_wat
     for (size_t i = 0; status == TN_OK && i < program->test_count; i++)
         if (!program->tests[i].imported)
             status = run_in_turn(opened, i, &with, max_states, watcher, counts);
-    tn_with_clear(&with);
+    with_clear(&with);
     return status == TN_OK && counts->failed > failed ? TN_INVALID : status;
 }
 
@@ -369,9 +548,9 @@ tn_status tn_tests_check(tn_opened *opened, tn_error *error)
         if (own->imported || own->with <= seen)
             continue;
         seen = own->with;
-        status = tn_with_open(&with, opened, own, error);
+        status = with_open(&with, opened, own, error);
         status = status == TN_INVALID ? TN_OK : status; /* which is said */
     }
-    tn_with_clear(&with);
+    with_clear(&with);
     return status;
 }

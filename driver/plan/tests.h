@@ -3,7 +3,40 @@
 #define TARTAN_DRIVER_PLAN_TESTS_H
 
 #include "compiler/plan/syntax/program.h"
-#include "driver/open/findings.h"
+#include "driver/open/open.h"
+#include "runtime/module/module.h"
+#include "runtime/plan/match/vm.h"
+
+/* Whether a case of a test comes out, from what its rules say of the plan. */
+
+/* Has the plan of the case fewer or more trays than those of the library? */
+static inline bool tn_length_drops(const tn_library_record *library, const tn_test_case *test)
+{
+    return test->length < library->trays_min || test->length > library->trays_max;
+}
+
+/* bits: of a rule's test, bit 0 says whether it matches; of a library's, bit i whether its clause i holds. Not for
+ * houses and measures. */
+bool tn_case_comes_out(const tn_module *module, const tn_test_block *block, const tn_test_case *test,
+                       const uint64_t *bits);
+
+/* Test cases of measures: `value [PLAN] = NUMBER`. */
+
+typedef struct tn_value_tests {
+    tn_opened *opened;
+    const tn_test_block *tests;
+    tn_schema *schema;
+    tn_plan_vm *vm;
+    tn_tray *trays;
+} tn_value_tests;
+
+/* Clear in any case. */
+tn_status tn_value_tests_new(tn_value_tests *values, tn_opened *opened, const tn_test_block *tests, tn_error *error);
+void tn_value_tests_clear(tn_value_tests *values);
+
+/* Does case i come out? One that does not, and is not marked `todo`, is reported; *message is then what was said, and
+ * else NULL. */
+tn_status tn_value_test(tn_value_tests *values, size_t i, bool *good, const char **message, tn_error *error);
 
 typedef struct tn_test_counts {
     size_t passed, failed, todo; /* todo: failed as they are expected to */

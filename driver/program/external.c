@@ -2,20 +2,382 @@
 #include "driver/program/external.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <inttypes.h>
+#include <jansson.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
 #include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/types.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "driver/program/keeper.h"
-#include "driver/program/process.h"
 #include "runtime/base/array.h"
-#include "runtime/base/clock.h"
-#include "runtime/base/file_error.h"
+#include "runtime/base/error.h"
+#include "runtime/base/file.h"
+#include "runtime/base/utf8.h"
+#include "runtime/base/watch.h"
+
+#define TN_ANSWER_BYTES 65536u /* the longest line that is an answer */
+
+/* Zero it to begin with: nothing runs. */
+typedef struct tn_process {
+    pid_t pid; /* and its group; 0: none */
+    int in, out, err;
+    char *unread; /* [TN_ANSWER_BYTES]: what came, and was not taken; owned */
+    size_t unread_size;
+    char said[240]; /* the end of what it said on standard error */
+    size_t said_size;
+    bool over; /* its output has ended */
+} tn_process;
+
+static bool process_overlong(const tn_process *process);
+
+/* ---- reading answers */
+
+#define SHOWN 60u /* bytes of an answer that are shown */
+
+/* Copies bytes as they can be shown, in at most `room` bytes and its end. */
+static void clean_copy(char *to, size_t room, const char *text, size_t size)
+{
+    size_t shown = size < SHOWN ? size : SHOWN;
+    FILE *out = fmemopen(to, room, "w");
+    to[0] = '\0';
+    if (!out)
+        return; /* then nothing is shown */
+    while (shown < size && shown > 0 && ((unsigned char)text[shown] & 0xC0) == 0x80)
+        shown--; /* no part of a letter */
+    tn_write_clean(out, text, shown);
+    fputs(shown < size ? "..." : "", out);
+    fclose(out);
+    to[room - 1] = '\0';
+}
+
+static void refuse(tn_answer *answer, const char *line, size_t size, const char *why)
+{
+    char shown[TN_REFUSAL_SIZE - 80];
+    clean_copy(shown, sizeof shown, line, size);
+    if (shown[0])
+        snprintf(answer->refusal, sizeof answer->refusal, "answered `%s`, %s", shown, why);
+    else
+        snprintf(answer->refusal, sizeof answer->refusal, "answered with an empty line, %s", why);
+}
+
+/* False where it is neither a number nor a list of `count` of them. */
+static bool take_values(const json_t *score, size_t count, double *values)
+{
+    if (json_is_number(score) && count == 1) {
+        values[0] = json_number_value(score);
+        return true;
+    }
+    if (!json_is_array(score) || json_array_size(score) != count)
+        return false;
+    for (size_t i = 0; i < count; i++) {
+        const json_t *value = json_array_get(score, i);
+        if (!json_is_number(value))
+            return false;
+        values[i] = json_number_value(value);
+    }
+    return true;
+}
+
+static void take_id(const json_t *json, tn_answer *answer)
+{
+    const json_t *id = json_object_get(json, "id");
+    answer->says_id = json_is_integer(id) && json_integer_value(id) >= 0;
+    if (answer->says_id)
+        answer->id = (uint64_t)json_integer_value(id);
+}
+
+static void say_wanted(tn_answer *answer, const char *line, size_t size, size_t count)
+{
+    char why[80];
+    if (count == 1)
+        snprintf(why, sizeof why, "and one number is wanted");
+    else
+        snprintf(why, sizeof why, "and a list of %zu numbers is wanted", count);
+    refuse(answer, line, size, why);
+}
+
+void tn_answer_read(const char *line, size_t size, size_t count, tn_answer *answer)
+{
+    json_t *json = json_loadb(line, size, JSON_DECODE_ANY | JSON_REJECT_DUPLICATES, NULL);
+    *answer = (tn_answer){0};
+    take_id(json, answer);
+    const json_t *score = json_is_object(json) ? json_object_get(json, "score") : json;
+    const char *said = json_string_value(json_object_get(json, "error"));
+    bool valued = json && !said && take_values(score, count, answer->values);
+    answer->understood = said || valued;
+    if (!json) {
+        refuse(answer, line, size, "which is not JSON");
+    } else if (said) {
+        char shown[TN_REFUSAL_SIZE - 40];
+        clean_copy(shown, sizeof shown, said, strlen(said));
+        snprintf(answer->refusal, sizeof answer->refusal, "says: %s", shown);
+    } else if (!valued) {
+        say_wanted(answer, line, size, count);
+    }
+    json_decref(json);
+}
+
+/* ---- one running program: its input, its answers line by line, and the end of what it says on standard error
+ *
+ * Its files never block. Used by one thread at a time. */
+
+#define POLITE_MS 1000 /* that a program has for ending by itself */
+
+extern char **environ;
+
+/* ---- starting */
+
+static int set_up(posix_spawn_file_actions_t *actions, const char *folder, int in, int out, int err)
+{
+    int failed = posix_spawn_file_actions_addchdir_np(actions, folder);
+    failed = failed ? failed : posix_spawn_file_actions_adddup2(actions, in, STDIN_FILENO);
+    failed = failed ? failed : posix_spawn_file_actions_adddup2(actions, out, STDOUT_FILENO);
+    return failed ? failed : posix_spawn_file_actions_adddup2(actions, err, STDERR_FILENO);
+}
+
+/* Signals are as in a new program, whatever is done with them here. */
+static int set_attributes(posix_spawnattr_t *attributes)
+{
+    sigset_t all, none;
+    sigfillset(&all);
+    sigemptyset(&none);
+    int failed =
+        posix_spawnattr_setflags(attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
+    failed = failed ? failed : posix_spawnattr_setpgroup(attributes, 0);
+    failed = failed ? failed : posix_spawnattr_setsigdefault(attributes, &all);
+    return failed ? failed : posix_spawnattr_setsigmask(attributes, &none);
+}
+
+static int spawn(const char *path, const char *folder, const int files[3], pid_t *pid)
+{
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    char *word = strdup(path), *const words[] = {word, NULL};
+    if (!word || posix_spawn_file_actions_init(&actions) != 0) {
+        free(word);
+        return ENOMEM;
+    }
+    int failed = posix_spawnattr_init(&attributes);
+    if (failed == 0) {
+        failed = set_up(&actions, folder, files[0], files[1], files[2]);
+        failed = failed ? failed : set_attributes(&attributes);
+        failed = failed ? failed : posix_spawn(pid, path, &actions, &attributes, words, environ);
+        posix_spawnattr_destroy(&attributes);
+    }
+    posix_spawn_file_actions_destroy(&actions);
+    free(word);
+    return failed;
+}
+
+static void close_file(int *file)
+{
+    if (*file >= 0)
+        close(*file);
+    *file = -1;
+}
+
+static void close_pair(int pair[2])
+{
+    close_file(&pair[0]);
+    close_file(&pair[1]);
+}
+
+static int start_at(const char *path, const char *folder, tn_process *p)
+{
+    int in[2] = {-1, -1}, out[2] = {-1, -1}, err[2] = {-1, -1};
+    bool made = pipe2(in, O_CLOEXEC) == 0 && pipe2(out, O_CLOEXEC) == 0 && pipe2(err, O_CLOEXEC) == 0;
+    int failed = made ? spawn(path, folder, (const int[]){in[0], out[1], err[1]}, &p->pid) : errno;
+    if (failed) {
+        close_pair(in);
+        close_pair(out);
+        close_pair(err);
+        p->pid = 0;
+        return failed;
+    }
+    close(in[0]);
+    close(out[1]);
+    close(err[1]);
+    p->in = in[1];
+    p->out = out[0];
+    p->err = err[0];
+    const int own[] = {p->in, p->out, p->err};
+    for (size_t i = 0; i < 3; i++)
+        fcntl(own[i], F_SETFL, O_NONBLOCK);
+    return 0;
+}
+
+/* Runs the file at `path`, a whole path, in its folder, as a group of its own. E1254 (TN_IO) where that fails. */
+static tn_status process_start(const char *path, tn_process *process, tn_error *error)
+{
+    *process = (tn_process){.unread = malloc(TN_ANSWER_BYTES)};
+    char *folder = strdup(path), *slash = folder ? strrchr(folder, '/') : NULL;
+    if (slash)
+        slash[slash == folder] = '\0';
+    int failed = process->unread && slash ? start_at(path, folder, process) : ENOMEM;
+    free(folder);
+    if (failed == 0)
+        return TN_OK;
+    free(process->unread);
+    process->unread = NULL;
+    tn_fail(error, TN_IO, E_PROGRAM_START, "the program %.300s cannot be started: %s", path, strerror(failed));
+    if (failed == ENOEXEC || failed == ENOENT)
+        tn_error_help(error, "a script begins with a line that names its interpreter, as #!/bin/sh");
+    return TN_IO;
+}
+
+/* ---- reading and writing */
+
+static void hear_out(tn_process *p)
+{
+    size_t room = TN_ANSWER_BYTES - p->unread_size;
+    ssize_t got = room ? read(p->out, p->unread + p->unread_size, room) : -1;
+    if (got > 0)
+        p->unread_size += (size_t)got;
+    else if (got == 0)
+        p->over = true;
+}
+
+/* Only the end of it is kept. What `read` returns. */
+static ssize_t hear_err(tn_process *p)
+{
+    char bytes[4096];
+    ssize_t got = read(p->err, bytes, sizeof bytes);
+    if (got <= 0)
+        return got;
+    size_t size = (size_t)got, room = sizeof p->said;
+    const char *end = bytes + size;
+    size = size < room ? size : room;
+    size_t stays = p->said_size + size <= room ? p->said_size : room - size;
+    memmove(p->said, p->said + p->said_size - stays, stays);
+    memcpy(p->said + stays, end - size, size);
+    p->said_size = stays + size;
+    return got;
+}
+
+/* Waits at most so many milliseconds for answers, and, with `writes`, for room in its input; takes in what comes. */
+static void process_wait(tn_process *p, bool writes, int milliseconds)
+{
+    struct pollfd files[] = {{p->over || process_overlong(p) ? -1 : p->out, POLLIN, 0},
+                             {p->err, POLLIN, 0},
+                             {writes ? p->in : -1, POLLOUT, 0}};
+    if (poll(files, 3, milliseconds) <= 0)
+        return;
+    if (files[1].revents && hear_err(p) == 0)
+        close_file(&p->err);
+    if (files[0].revents)
+        hear_out(p);
+}
+
+/* Writes as much as there is room for: how many bytes. It is no error here if nobody reads them: that shows in the
+ * answers. */
+static size_t process_write(tn_process *p, const char *bytes, size_t size)
+{
+    if (p->in < 0)
+        return 0;
+    ssize_t written = tn_write_quietly(p->in, bytes, size);
+    if (written >= 0)
+        return (size_t)written;
+    if (errno == EPIPE) /* it reads no more; it may answer all the same */
+        close_file(&p->in);
+    return 0;
+}
+
+/* The line that has come first, without its end; NULL where none is whole. Take it before the next call. A line without
+ * an end counts where the output has ended. */
+static const char *process_line(const tn_process *p, size_t *size)
+{
+    const char *end = p->unread_size ? memchr(p->unread, '\n', p->unread_size) : NULL;
+    *size = end ? (size_t)(end - p->unread) : p->unread_size;
+    return end || (p->over && p->unread_size) ? p->unread : NULL;
+}
+
+static void process_take(tn_process *p, size_t size)
+{
+    size += size < p->unread_size; /* the line's end too */
+    p->unread_size -= size;
+    memmove(p->unread, p->unread + size, p->unread_size);
+}
+
+/* A line that is longer than an answer can be has come. */
+static bool process_overlong(const tn_process *p)
+{
+    return p->unread_size == TN_ANSWER_BYTES && !memchr(p->unread, '\n', p->unread_size);
+}
+
+/* ---- ending */
+
+static bool gone(pid_t pid, int *status)
+{
+    return waitpid(pid, status, WNOHANG) == pid;
+}
+
+/* What it still says is read, so that it need not wait for that. */
+static bool wait_for_end(tn_process *p, int *status)
+{
+    for (int waited = 0; waited < POLITE_MS; waited += 10) {
+        if (gone(p->pid, status))
+            return true;
+        p->unread_size = 0;
+        process_wait(p, false, 10);
+        if (p->over && p->err < 0) /* then nothing is waited for, above */
+            nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
+    }
+    return false;
+}
+
+/* Closes its input, by which it knows that nothing more is asked. */
+static void process_close(tn_process *p)
+{
+    if (p->pid)
+        close_file(&p->in);
+}
+
+/* Closes its input, and waits a moment for its end if it is polite; then ends its group. Its exit status, as waitpid
+ * gives it. */
+static int process_end(tn_process *p, bool polite)
+{
+    int status = 0;
+    if (!p->pid)
+        return 0;
+    process_close(p);
+    bool ended = polite && wait_for_end(p, &status);
+    kill(-p->pid, SIGKILL); /* whatever it has started is ended with it */
+    while (!ended && waitpid(p->pid, &status, 0) < 0 && errno == EINTR)
+        ;
+    while (p->err >= 0 && hear_err(p) > 0)
+        ;
+    close_file(&p->out);
+    close_file(&p->err);
+    free(p->unread);
+    p->unread = NULL;
+    p->unread_size = 0;
+    p->pid = 0;
+    return status;
+}
+
+/* The last line that it said on standard error, in `room` bytes; empty where it said nothing. */
+static void process_last_words(const tn_process *p, char *text, size_t room)
+{
+    size_t end = p->said_size;
+    while (end > 0 && (p->said[end - 1] == '\n' || p->said[end - 1] == ' '))
+        end--;
+    size_t begin = end;
+    while (begin > 0 && p->said[begin - 1] != '\n')
+        begin--;
+    clean_copy(text, room, p->said + begin, end - begin);
+}
+
+/* ---- the processes of a program, started, timed and ended */
 
 #define TICK_MS 50 /* how often a watch is looked at */
 
@@ -89,7 +451,7 @@ tn_status tn_external_new(const tn_external_options *options, tn_external **prog
 
 static void end_process(tn_external *p, unsigned thread, bool polite, int *status)
 {
-    int ended = tn_process_end(&p->of[thread].process, polite);
+    int ended = process_end(&p->of[thread].process, polite);
     tn_keeper_tell(&p->keeper, thread, 0);
     if (status)
         *status = ended;
@@ -101,7 +463,7 @@ void tn_external_free(tn_external *p)
         return;
     bool polite = !tn_watch_stopped(p->options.watch);
     for (unsigned t = 0; p->keeper.pid && t < p->options.threads; t++)
-        tn_process_close(&p->of[t].process); /* all of them at once */
+        process_close(&p->of[t].process); /* all of them at once */
     for (unsigned t = 0; p->keeper.pid && t < p->options.threads; t++)
         end_process(p, t, polite, NULL);
     tn_keeper_end(&p->keeper);
@@ -114,11 +476,6 @@ void tn_external_free(tn_external *p)
 const char *tn_external_folder(const tn_external *program)
 {
     return program->folder;
-}
-
-const char *tn_external_path(const tn_external *program)
-{
-    return program->path;
 }
 
 tn_status tn_external_useless(const tn_external *p, uint64_t id, const char *refusal, tn_error *error)
@@ -180,7 +537,7 @@ __attribute__((format(printf, 3, 4))) static void fail_question(asking *a, tn_qu
 
 static tn_status start(asking *a, tn_error *error)
 {
-    tn_status status = tn_process_start(a->program->path, &a->of->process, error);
+    tn_status status = process_start(a->program->path, &a->of->process, error);
     if (status == TN_OK)
         tn_keeper_tell(&a->program->keeper, a->thread, a->of->process.pid);
     a->of->repeats_ids = false;
@@ -217,7 +574,7 @@ static tn_status send_more(asking *a, tn_error *error)
 static void give_up(asking *a, const char *reason, bool at_once)
 {
     char words[120];
-    tn_process_last_words(&a->of->process, words, sizeof words);
+    process_last_words(&a->of->process, words, sizeof words);
     bool alone = a->sent == 1;
     a->outgoing_size = 0;
     for (size_t i = 0; i < a->count; i++) {
@@ -254,7 +611,7 @@ static tn_status unasked(const asking *a, const char *text, size_t size, tn_erro
 {
     char shown[80];
     const char *end = memchr(text, '\n', size);
-    tn_clean_copy(shown, sizeof shown, text, end ? (size_t)(end - text) : size);
+    clean_copy(shown, sizeof shown, text, end ? (size_t)(end - text) : size);
     tn_fail(error, TN_INVALID, E_PROGRAM_ANSWERS,
             "the program %.200s answered `%s`, and was not asked: its answers cannot be told apart", a->program->path,
             shown);
@@ -276,7 +633,7 @@ static tn_question *find_question(const asking *a, const tn_answer *answer)
 static tn_status take_answers(asking *a, tn_error *error)
 {
     size_t size;
-    for (const char *line; (line = tn_process_line(&a->of->process, &size));) {
+    for (const char *line; (line = process_line(&a->of->process, &size));) {
         tn_answer answer;
         tn_answer_read(line, size, a->program->options.values, &answer);
         tn_question *q = find_question(a, &answer);
@@ -285,7 +642,7 @@ static tn_status take_answers(asking *a, tn_error *error)
         q->answer = answer;
         a->of->repeats_ids = answer.says_id;
         finish(a, q);
-        tn_process_take(&a->of->process, size);
+        process_take(&a->of->process, size);
     }
     return TN_OK;
 }
@@ -297,11 +654,11 @@ static tn_status turn(asking *a, tn_error *error)
     tn_status status = tn_watch_check(a->program->options.watch, error);
     if (status != TN_OK)
         return status;
-    size_t written = a->outgoing_size ? tn_process_write(process, a->outgoing, a->outgoing_size) : 0;
+    size_t written = a->outgoing_size ? process_write(process, a->outgoing, a->outgoing_size) : 0;
     a->outgoing_size -= written;
     if (written)
         memmove(a->outgoing, a->outgoing + written, a->outgoing_size);
-    tn_process_wait(process, a->outgoing_size && process->in >= 0, TICK_MS);
+    process_wait(process, a->outgoing_size && process->in >= 0, TICK_MS);
     status = take_answers(a, error);
     if (status != TN_OK || a->sent == 0)
         return status;
@@ -310,7 +667,7 @@ static tn_status turn(asking *a, tn_error *error)
              a->program->options.seconds == 1 ? "" : "s");
     if (process->over)
         end_and_give_up(a, NULL, false);
-    else if (tn_process_overlong(process))
+    else if (process_overlong(process))
         end_and_give_up(a, "gave an answer of more than 65536 bytes", true);
     else if (tn_seconds() - a->since > a->program->options.seconds)
         end_and_give_up(a, late, true);
@@ -338,7 +695,7 @@ static tn_status look_for_unasked(asking *a, tn_error *error)
     tn_process *process = &a->of->process;
     if (!process->pid)
         return TN_OK;
-    tn_process_wait(process, false, 0);
+    process_wait(process, false, 0);
     if (process->unread_size)
         return unasked(a, process->unread, process->unread_size, error);
     if (process->over)

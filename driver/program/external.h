@@ -7,19 +7,41 @@
 #ifndef TARTAN_DRIVER_PROGRAM_EXTERNAL_H
 #define TARTAN_DRIVER_PROGRAM_EXTERNAL_H
 
-#include "driver/program/answer.h"
 #include "runtime/base/watch.h"
+#include "runtime/genome/breeding/select.h"
+
+/* What a program that scores answers: a line of JSON with a number, a list of numbers, or an object.
+ *
+ *   1.5
+ *   [1.5, 20]
+ *   {"id": 12, "score": [1.5, 20]}
+ *   {"id": 12, "error": "it falls over"}
+ */
+
+#define TN_REFUSAL_SIZE 200u
+
+typedef struct tn_answer {
+    bool understood; /* it has what is wanted, or says why not */
+    bool says_id;    /* and which */
+    uint64_t id;
+    double values[TN_OBJECTIVES_MAX];
+    char refusal[TN_REFUSAL_SIZE]; /* a clause about the program, such as "answered `x`, ...": why there are no values;
+                                      else empty */
+} tn_answer;
+
+/* Reads a line of `size` bytes, from which `count` numbers are wanted. What comes from the line is cleaned. */
+void tn_answer_read(const char *line, size_t size, size_t count, tn_answer *answer);
 
 typedef struct tn_external tn_external;
 
 #define TN_EXTERNAL_PATIENCE 10u
 
 typedef struct tn_external_options {
-    const char *path;    /* the program's whole path */
-    unsigned threads;    /* that ask at once */
-    unsigned seconds;    /* that an answer may take */
-    size_t values;       /* numbers in an answer, 1 to TN_OBJECTIVES_MAX */
-    tn_watch *watch;     /* borrowed, or NULL: asking gives up (TN_STOPPED) once this says so */
+    const char *path; /* the program's whole path */
+    unsigned threads; /* that ask at once */
+    unsigned seconds; /* that an answer may take */
+    size_t values;    /* numbers in an answer, 1 to TN_OBJECTIVES_MAX */
+    tn_watch *watch;  /* borrowed, or NULL: asking gives up (TN_STOPPED) once this says so */
 } tn_external_options;
 
 /* Nothing is started yet but a process that clears up, whatever becomes of this one (keeper.h). TN_IO (E1254) where the
@@ -31,7 +53,6 @@ void tn_external_free(tn_external *program);
 
 /* A folder for files that the program is told of; it is there as long as the program. */
 const char *tn_external_folder(const tn_external *program);
-const char *tn_external_path(const tn_external *program);
 
 /* TN_INVALID (E1255): the program scores nothing; `refusal` is what its answer about this individual was, or, with
  * UINT64_MAX, about the last of so many that patience ended. */

@@ -12,7 +12,6 @@
 #include "driver/place/shape.h"
 #include "driver/program/keeper.h"
 #include "runtime/base/file.h"
-#include "runtime/base/file_error.h"
 #include "runtime/base/json.h"
 #include "runtime/geometry/write.h"
 #include "runtime/place/model/terms.h"

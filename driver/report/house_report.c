@@ -6,7 +6,7 @@
 
 #include "driver/open/digits.h"
 #include "driver/report/page.h"
-#include "runtime/base/length_style.h"
+#include "runtime/base/length.h"
 #include "runtime/house/picture/draw.h"
 
 typedef struct tn_house_reporting {

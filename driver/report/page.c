@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "driver/open/again.h"
+#include "driver/open/open.h"
 #include "runtime/base/utf8.h"
 
 static const char style[] =

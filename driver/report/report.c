@@ -3,7 +3,400 @@
 
 #include <stdlib.h>
 
-#include "driver/report/report_data.h"
+#include "driver/measure/spread.h"
+#include "driver/open/digits.h"
+#include "driver/report/report_rules.h"
+#include "runtime/plan/measure/best.h"
+#include "runtime/plan/measure/named.h"
+#include "runtime/plan/picture/draw_explain.h"
+
+/* ---- what is HTML and nothing else */
+
+/* The filter is kept in the address, so that a filtered sheet can be linked to. */
+static const char report_foot[] =
+    "<script>\n"
+    "'use strict';\n"
+    "const words = document.getElementById('words'), which = document.getElementById('which');\n"
+    "const by = document.getElementById('by'), shown = document.getElementById('shown');\n"
+    "const plans = [...document.querySelectorAll('.plan')];\n"
+    "function filter() {\n"
+    "  const wanted = words.value.toLowerCase().split(/\\s+/).filter(Boolean);\n"
+    "  let count = 0;\n"
+    "  for (const plan of plans) {\n"
+    "    const text = plan.textContent.toLowerCase();\n"
+    "    const clauses = plan.dataset.by.split(' ');\n"
+    "    const fits = wanted.every((word) => text.includes(word)) &&\n"
+    "      (which.value === 'all' || plan.classList.contains(which.value)) &&\n"
+    "      (by.value === '' || clauses.includes(by.value));\n"
+    "    plan.hidden = !fits;\n"
+    "    count += fits;\n"
+    "  }\n"
+    "  shown.textContent = `${count} of ${plans.length} plans`;\n"
+    "}\n"
+    "function change() {\n"
+    "  filter();\n"
+    "  history.replaceState(null, '', '#' + new URLSearchParams({words: words.value, which: which.value, by: "
+    "by.value}));\n"
+    "}\n"
+    "const asked = new URLSearchParams(location.hash.slice(1));\n"
+    "words.value = asked.get('words') || '';\n"
+    "which.value = asked.get('which') || 'all';\n"
+    "by.value = asked.get('by') || '';\n"
+    "for (const control of [words, which, by]) control.addEventListener('input', change);\n"
+    "filter();\n"
+    "</script>\n";
+
+/* ---- numbers and plans */
+
+bool tn_report_number(const tn_reporting *r, const mpz_t number)
+{
+    char *digits = tn_digits(number, true);
+    bool written = digits && tn_page_html(&r->page, digits);
+    free(digits);
+    return written;
+}
+
+/* In thousandths of a per cent, rounded down; then as many of its digits as count. */
+bool tn_report_share(const tn_reporting *r, const mpz_t part, const mpz_t whole)
+{
+    if (mpz_sgn(part) == 0 || mpz_sgn(whole) == 0)
+        return tn_page_html(&r->page, "0 %");
+    if (mpz_cmp(part, whole) == 0)
+        return tn_page_html(&r->page, "100 %");
+    mpz_t share;
+    mpz_init(share);
+    mpz_mul_ui(share, part, 100000);
+    mpz_fdiv_q(share, share, whole);
+    unsigned thousandths = (unsigned)mpz_get_ui(share);
+    mpz_clear(share);
+    if (thousandths == 0)
+        return tn_page_html(&r->page, "less than 0.001 %");
+    if (thousandths < 1000)
+        return tn_buffer_printf(r->page.text, "0.%03u %%", thousandths);
+    return tn_buffer_printf(r->page.text, "%u.%u %%", thousandths / 1000, thousandths % 1000 / 100);
+}
+
+bool tn_report_plan(const tn_reporting *r, const tn_tray *trays, size_t length)
+{
+    tn_buffer line = {0};
+    bool written = tn_plan_write_line(r->ready->schema, trays, length, &line) &&
+                   tn_page_text_part(&r->page, line.data ? line.data : "", line.size);
+    free(line.data);
+    return written;
+}
+
+/* ---- pictures */
+
+tn_status tn_report_put_explained(tn_reporting *r, const tn_explained *explained, const char *description)
+{
+    tn_picture picture = tn_page_next_picture(&r->page);
+    tn_status status = tn_explained_draw(explained, false, &picture, r->page.error);
+    return tn_page_put_picture(&r->page, &picture, description, status);
+}
+
+/* ---- plans */
+
+/* The plan alone. */
+static tn_status put_plan(tn_reporting *r, const tn_tray *trays, size_t length, const char *description)
+{
+    tn_picture picture = tn_page_next_picture(&r->page);
+    const tn_drawn_reasons drawn = {.plan = {.trays = trays, .length = length}};
+    tn_status status = tn_reasons_draw(r->ready->schema, &drawn, &picture, r->page.error);
+    return tn_page_put_picture(&r->page, &picture, description, status);
+}
+
+/* ---- the chart */
+
+enum { BAR_HEIGHT = 12, BAR_ROW = 34, BAR_LEFT = 70, BAR_WIDTH = 560, DIGIT_WIDTH = 8 };
+
+/* The logarithm of a count in thousandths of its base ten, straight between powers of ten: exact on every machine. */
+static size_t magnitude(const mpz_t count)
+{
+    char *digits = mpz_get_str(NULL, 10, count);
+    size_t result = 0;
+    if (digits && mpz_sgn(count) > 0) {
+        char lead[5] = "0000";
+        size_t size = strlen(digits);
+        memcpy(lead, digits, size < 4 ? size : 4);
+        result = 1000 * (size - 1) + (strtoul(lead, NULL, 10) - 1000) / 9;
+    }
+    free(digits);
+    return result;
+}
+
+static bool write_bar(const tn_reporting *r, const mpz_t count, size_t most, size_t y, const char *colour)
+{
+    size_t width = mpz_sgn(count) > 0 ? 2 + magnitude(count) * BAR_WIDTH / (most ? most : 1) : 0;
+    return tn_buffer_printf(r->page.text, "<rect x=\"%d\" y=\"%zu\" width=\"%zu\" height=\"%d\" fill=\"%s\"/>",
+                            BAR_LEFT, y, width, BAR_HEIGHT, colour) &&
+           tn_buffer_printf(r->page.text, "<text x=\"%zu\" y=\"%zu\">", BAR_LEFT + width + 6, y + BAR_HEIGHT - 2) &&
+           tn_report_number(r, count) && tn_buffer_printf(r->page.text, "</text>\n");
+}
+
+/* The chart of plans by length: `generated` and `kept` of lengths low, low + 1, ... */
+static bool draw_chart(const tn_reporting *r, uint32_t low, const mpz_t *generated, const mpz_t *kept, size_t count)
+{
+    size_t most = 0;
+    for (size_t i = 0; i < count; i++)
+        most = magnitude(generated[i]) > most ? magnitude(generated[i]) : most;
+    size_t digits = most / 1000 + 1, width = BAR_LEFT + BAR_WIDTH + DIGIT_WIDTH * (digits + digits / 3 + 1);
+    bool written =
+        tn_buffer_printf(r->page.text,
+                         "<figure class=\"chart\"><svg width=\"%zu\" viewBox=\"0 0 %zu %zu\" font-size=\"12\" "
+                         "font-family=\"sans-serif\" role=\"img\" "
+                         "aria-label=\"plans by length\">\n",
+                         width, width, count * BAR_ROW + 10);
+    for (size_t i = 0; written && i < count; i++) {
+        size_t y = i * BAR_ROW + 4;
+        written =
+            tn_buffer_printf(r->page.text, "<text x=\"0\" y=\"%zu\">%zu trays</text>", y + BAR_HEIGHT + 4, low + i) &&
+            write_bar(r, generated[i], most, y, "#c9c4b8") &&
+            write_bar(r, kept[i], most, y + BAR_HEIGHT + 1, "#5a7d4f");
+    }
+    return written && tn_buffer_printf(r->page.text,
+                                       "</svg></figure>\n<p class=\"quiet\">grey: generated; green: kept. The scale is "
+                                       "logarithmic.</p>\n");
+}
+
+/* ---- the measures of a report */
+
+enum { SHOWN = 5 };
+
+/* The picture says what the measure is of. */
+static bool put_title(const tn_reporting *r, uint32_t measure)
+{
+    const char *name = tn_named_measure(r->module, measure);
+    return tn_page_html(&r->page, "<section class=\"card measure\" id=\"measure-") && tn_page_text(&r->page, name) &&
+           tn_page_html(&r->page, "\"><h3>") && tn_page_text(&r->page, name) && tn_page_html(&r->page, "</h3>\n");
+}
+
+/* ---- the plans with the least or the most */
+
+static bool put_value(const tn_reporting *r, const tn_spread *spread, const int64_t *values, const mpz_t rank)
+{
+    tn_buffer text = {0};
+    mpq_t value;
+    mpq_init(value);
+    tn_weighed_value(spread->weighed, 0, values, value);
+    bool good = tn_amount_write(spread->bins.unit, value, &text) && tn_page_html(&r->page, "<div><p><b>") &&
+                tn_page_text(&r->page, text.data) && tn_page_html(&r->page, "</b>, rank ") &&
+                tn_report_number(r, rank) && tn_page_html(&r->page, "</p>\n");
+    mpq_clear(value);
+    free(text.data);
+    return good;
+}
+
+static tn_status put_best_plan(tn_reporting *r, const tn_spread *spread, const tn_tray *trays, uint32_t length,
+                               const int64_t *values)
+{
+    mpz_t rank;
+    mpz_init(rank);
+    tn_library_rank(r->ready->library, trays, length, rank);
+    tn_status status = tn_page_written(&r->page, put_value(r, spread, values, rank));
+    mpz_clear(rank);
+    if (status == TN_OK)
+        status = put_plan(r, trays, length, "one of the best plans by a measure");
+    if (status != TN_OK)
+        return status;
+    return tn_page_written(&r->page, tn_page_html(&r->page, "<p class=\"line\">") && tn_report_plan(r, trays, length) &&
+                                         tn_page_html(&r->page, "</p></div>\n"));
+}
+
+static tn_status put_best_plans(tn_reporting *r, const tn_spread *spread, tn_best *best)
+{
+    tn_tray *trays = malloc(sizeof *trays * ((size_t)tn_library_max(r->ready->library) + 1));
+    tn_status status = trays ? TN_OK : tn_fail_memory(r->page.error);
+    bool found = true;
+    for (int i = 0; status == TN_OK && found && i < SHOWN; i++) {
+        int64_t values[TN_WEIGHED_MAX];
+        uint32_t length;
+        status = tn_best_next(best, trays, &length, values, &found, r->page.error);
+        if (status == TN_OK && found)
+            status = put_best_plan(r, spread, trays, length, values);
+    }
+    free(trays);
+    return status;
+}
+
+static tn_status put_best(tn_reporting *r, const tn_spread *spread, bool most)
+{
+    tn_best *best = NULL;
+    tn_status status = tn_best_new(spread->weighed, &most, &best, r->page.error);
+    if (status == TN_OK)
+        status =
+            tn_page_written(&r->page, tn_page_html(&r->page, most ? "<details><summary>the plans with the most"
+                                                                  : "<details><summary>the plans with the least") &&
+                                          tn_page_html(&r->page, "</summary>\n<div class=\"best\">\n"));
+    if (status == TN_OK)
+        status = put_best_plans(r, spread, best);
+    tn_best_free(best);
+    return status == TN_OK ? tn_page_written(&r->page, tn_page_html(&r->page, "</div></details>\n")) : status;
+}
+
+/* ---- one measure */
+
+static tn_status put_spread(tn_reporting *r, tn_spread *spread)
+{
+    tn_picture picture = tn_page_next_picture(&r->page);
+    if (spread->d.count > TN_VALUES_LISTED)
+        tn_bins_few(&spread->bins, TN_BINS_DEFAULT);
+    tn_status status = tn_spread_draw(spread, &picture, r->page.error);
+    status = tn_page_put_picture(&r->page, &picture, "how the plans are spread over the measure", status);
+    if (status == TN_OK && spread->d.count > 0)
+        status = put_best(r, spread, false);
+    if (status == TN_OK && spread->d.count > 0)
+        status = put_best(r, spread, true);
+    return status;
+}
+
+/* A measure past a limit is not shown, and why is told. */
+static tn_status put_measure(tn_reporting *r, uint32_t measure)
+{
+    tn_spread spread;
+    size_t before = r->page.text->size;
+    tn_status status = tn_page_written(&r->page, put_title(r, measure));
+    if (status != TN_OK)
+        return status;
+    status = tn_spread_make(&spread, r->ready, measure, r->page.error);
+    if (status == TN_OK)
+        status = put_spread(r, &spread);
+    tn_spread_clear(&spread);
+    if (status == TN_LIMIT) {
+        r->page.text->size = before;
+        status = tn_page_written(
+            &r->page, put_title(r, measure) && tn_page_html(&r->page, "<p class=\"quiet\">not worked out: ") &&
+                          tn_page_prose(&r->page, r->page.error->message) && tn_page_html(&r->page, "</p>\n"));
+    }
+    return status == TN_OK ? tn_page_written(&r->page, tn_page_html(&r->page, "</section>\n")) : status;
+}
+
+static tn_status put_measures(tn_reporting *r)
+{
+    tn_status status = tn_page_written(&r->page, tn_page_html(&r->page, "<h2 id=\"measures\">Measures</h2>\n"));
+    bool any = false;
+    for (uint32_t i = TN_NO_RECORD; status == TN_OK && tn_named_measure_next(r->module, r->ready->record, &i);) {
+        status = put_measure(r, i);
+        any = true;
+    }
+    if (status == TN_OK && !any)
+        status =
+            tn_page_written(&r->page, tn_page_html(&r->page, "<p class=\"quiet\">The file has no measures.</p>\n"));
+    return status;
+}
+
+/* ---- the sheet of plans of a report, kept and dropped, which can be filtered */
+
+static bool put_reasons(const tn_reporting *r, const tn_explained *explained)
+{
+    bool good = !explained->length_drops || tn_page_html(&r->page, "trays ");
+    for (size_t i = 0; good && i < explained->count; i++)
+        if (explained->rules[i].drops)
+            good = tn_page_text(&r->page, explained->rules[i].name) && tn_page_html(&r->page, " ");
+    return good;
+}
+
+/* The clauses that drop a plan, as they are to be read. */
+static bool put_by(const tn_reporting *r, const tn_explained *explained)
+{
+    bool good = tn_page_html(&r->page, " by "), first = true;
+    for (size_t i = 0; good && i < explained->count; i++) {
+        if (!explained->rules[i].drops)
+            continue;
+        good = (first || tn_page_html(&r->page, ", ")) && tn_page_html(&r->page, "<a href=\"#rule-") &&
+               tn_page_text(&r->page, explained->rules[i].name) && tn_page_html(&r->page, "\">") &&
+               tn_page_text(&r->page, explained->rules[i].name) && tn_page_html(&r->page, "</a>");
+        first = false;
+    }
+    return good;
+}
+
+static tn_status put_kept_plan(tn_reporting *r, const tn_explained *explained, const mpz_t rank)
+{
+    tn_buffer why = {0};
+    const char *state = explained->kept ? "kept" : "dropped";
+    bool good =
+        tn_explained_text(explained, false, &why) &&
+        tn_buffer_printf(r->page.text, "<div class=\"plan %s\" data-by=\"", state) && put_reasons(r, explained) &&
+        tn_buffer_printf(r->page.text, "\"><p><b>%s</b>", state) &&
+        (explained->kept ? tn_page_html(&r->page, ", rank ") && tn_report_number(r, rank) : put_by(r, explained)) &&
+        tn_page_html(&r->page, "</p>\n");
+    tn_status status = tn_page_written(&r->page, good);
+    if (status == TN_OK && explained->kept)
+        status = put_plan(r, explained->trays, explained->length, "a plan that is kept");
+    else if (status == TN_OK)
+        status = tn_report_put_explained(r, explained, "a plan that is dropped, with the reasons");
+    if (status == TN_OK)
+        status = tn_page_written(
+            &r->page,
+            tn_page_html(&r->page, "<p class=\"line\">") && tn_report_plan(r, explained->trays, explained->length) &&
+                tn_page_html(&r->page, explained->kept ? "</p>\n<details><summary>in words</summary><pre>"
+                                                       : "</p>\n<details><summary>why pruned</summary><pre>") &&
+                tn_page_text_part(&r->page, why.data, why.size) && tn_page_html(&r->page, "</pre></details></div>\n"));
+    free(why.data);
+    return status;
+}
+
+/* Plans sampled from a library; of what is generated only those that the library drops. */
+static tn_status put_sample(tn_reporting *r, const tn_library *library, bool dropped)
+{
+    size_t count = r->options->samples, found = 0;
+    mpz_t *ranks = malloc(sizeof *ranks * (count + 1));
+    tn_tray *trays = malloc(sizeof *trays * ((size_t)tn_library_max(library) + 1));
+    for (size_t i = 0; ranks && i < count; i++)
+        mpz_init(ranks[i]);
+    tn_status status = ranks && trays ? tn_library_sample(library, r->options->seed, TN_ALL_LENGTHS, count, ranks,
+                                                          &found, r->page.error)
+                                      : tn_fail_memory(r->page.error);
+    for (size_t i = 0; status == TN_OK && i < found; i++) {
+        uint32_t length = 0;
+        tn_explained explained;
+        tn_library_unrank(library, ranks[i], trays, &length);
+        if (dropped && tn_library_has(r->ready->library, trays, length))
+            continue;
+        status = tn_explained_make(&explained, r->opened, r->ready->schema, r->ready->record, NULL, 0, trays, length,
+                                   (size_t)length + 1, r->page.error);
+        if (status == TN_OK)
+            status = put_kept_plan(r, &explained, ranks[i]);
+        tn_explained_clear(&explained);
+    }
+    for (size_t i = 0; ranks && i < count; i++)
+        mpz_clear(ranks[i]);
+    free(ranks);
+    free(trays);
+    return status;
+}
+
+static bool put_controls(const tn_reporting *r)
+{
+    const tn_library_record *record = r->ready->record;
+    bool good = tn_page_html(
+        &r->page,
+        "<h2 id=\"plans\">Plans</h2>\n<p class=\"controls\"><input id=\"words\" aria-label=\"words\" "
+        "placeholder=\"words in the plan or the reasons\" size=\"30\"> <select id=\"which\" aria-label=\"kept or "
+        "dropped\"><option value=\"all\">kept and dropped</option><option "
+        "value=\"kept\">kept</option><option value=\"dropped\">dropped</option></select> <select "
+        "id=\"by\" aria-label=\"dropped by\"><option value=\"\">by any clause</option>");
+    for (uint32_t i = 0; good && i < record->clause_count; i++)
+        good = tn_page_html(&r->page, "<option>") &&
+               tn_page_text(&r->page, tn_text(r->module, r->module->CLAUSE_records[record->clause_first + i].name)) &&
+               tn_page_html(&r->page, "</option>");
+    return good && tn_page_html(&r->page, "</select> <span id=\"shown\"></span></p>\n<div id=\"sheet\">\n");
+}
+
+static tn_status put_plans(tn_reporting *r)
+{
+    tn_library_options options = {.max_states = r->options->max_states, .all_generated = true};
+    tn_library *generated = NULL;
+    tn_status status = tn_page_written(&r->page, put_controls(r));
+    if (status == TN_OK)
+        status = put_sample(r, r->ready->library, false);
+    if (status == TN_OK)
+        status = tn_library_new(r->ready->schema, r->ready->index, &options, &generated, r->page.error);
+    if (status == TN_OK)
+        status = put_sample(r, generated, true);
+    tn_library_free(generated);
+    return status == TN_OK ? tn_page_written(&r->page, tn_page_html(&r->page, "</div>\n")) : status;
+}
 
 /* ---- counts */
 
@@ -28,8 +421,7 @@ static tn_status put_chart(const tn_reporting *r)
         status = tn_library_generated(library, low + (uint32_t)i, generated[i], r->page.error);
     }
     if (status == TN_OK)
-        status =
-            tn_page_written(&r->page, tn_report_chart(r, low, (const mpz_t *)generated, (const mpz_t *)kept, count));
+        status = tn_page_written(&r->page, draw_chart(r, low, (const mpz_t *)generated, (const mpz_t *)kept, count));
     for (size_t i = 0; i < count; i++)
         mpz_clears(generated[i], kept[i], NULL);
     free(generated);
@@ -75,7 +467,7 @@ static bool put_foot(const tn_reporting *r)
     return tn_buffer_printf(r->page.text, "<p class=\"quiet\">library %s, seed %llu, ", hash,
                             (unsigned long long)r->options->seed) &&
            tn_page_version(&r->page, module) && tn_page_html(&r->page, "</p>\n") &&
-           tn_page_html(&r->page, tn_report_foot) && tn_page_html(&r->page, "</html>\n");
+           tn_page_html(&r->page, report_foot) && tn_page_html(&r->page, "</html>\n");
 }
 
 tn_status tn_report_page(tn_opened *opened, const tn_ready_library *ready, const tn_plan_analyses *analyses,
@@ -90,10 +482,10 @@ tn_status tn_report_page(tn_opened *opened, const tn_ready_library *ready, const
     if (status == TN_OK)
         status = tn_page_written(&r.page, tn_page_findings(&r.page, opened));
     if (status == TN_OK)
-        status = tn_report_measures(&r);
+        status = put_measures(&r);
     if (status == TN_OK)
         status = tn_report_rules(&r);
     if (status == TN_OK)
-        status = tn_report_plans(&r);
+        status = put_plans(&r);
     return status == TN_OK ? tn_page_written(&r.page, tn_page_limits(&r.page, opened) && put_foot(&r)) : status;
 }

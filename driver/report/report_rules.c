@@ -1,8 +1,8 @@
 /* The rules of a report: a card for each clause of the library, and for each rule of the file that is none. */
 #include <stdlib.h>
 
-#include "driver/open/findings.h"
-#include "driver/report/report_data.h"
+#include "driver/open/open.h"
+#include "driver/report/report_rules.h"
 #include "runtime/plan/picture/draw_rule.h"
 
 /* A clause or rule and what is known of it. */

@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #define XXH_INLINE_ALL
-#include "runtime/base/file_error.h"
+#include "runtime/base/file.h"
 #include "runtime/plan/library/hash_text.h"
 
 enum { CHUNK = 1 << 16 };

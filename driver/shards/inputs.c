@@ -8,12 +8,11 @@
 #include <sys/stat.h>
 
 #include "driver/open/missing.h"
-#include "driver/open/suggest_file.h"
 #include "driver/parquet/parquet.h"
 #include "driver/shards/record.h"
 #include "driver/zstd/zstd.h"
 #include "runtime/base/array.h"
-#include "runtime/base/file_error.h"
+#include "runtime/base/file.h"
 #include "runtime/base/utf8.h"
 #include "runtime/plan/store/sqlite.h"
 

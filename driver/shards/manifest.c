@@ -1,4 +1,4 @@
-/* Writes and reads the manifest of a shard set. */
+/* Writes and reads the manifest of a shard set, and the folder of a set by it. */
 #include "driver/shards/manifest.h"
 
 #include <inttypes.h>
@@ -6,22 +6,26 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "driver/open/missing.h"
 #include "driver/shards/hash.h"
 #include "driver/shards/set.h"
+#include "runtime/base/file.h"
 
-typedef struct tn_manifest_reading {
+typedef struct reading {
     tn_shard_set *set;
     json_t *manifest;
     tn_error *error;
-} tn_manifest_reading;
+} reading;
 
-static tn_status manifest_refuse(const tn_manifest_reading *r, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
-static tn_status manifest_word(const tn_manifest_reading *r, const char *key, const char *const *words, int count,
-                               int *number);
-static const char *const *manifest_formats(void);
+/* How formats are called, as by --format. */
+static const char *const formats[TN_FORMAT_COUNT] = {
+    [TN_FORMAT_LINES] = "lines", [TN_FORMAT_JSON] = "json",     [TN_FORMAT_CSV] = "csv",
+    [TN_FORMAT_BIN] = "bin",     [TN_FORMAT_SQLITE] = "sqlite", [TN_FORMAT_PARQUET] = "parquet"};
 
-/* ---- what a manifest says of a set of answers */
+static tn_status refuse(const reading *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
+static tn_status word(const reading *r, const char *key, const char *const *words, int count, int *number);
+
+/* ---- sets of answers */
 
 static const char *const answers[TN_ANSWER_FORMAT_COUNT] = {[TN_ANSWER_NAMES] = "names",
                                                             [TN_ANSWER_JSON] = "json",
@@ -40,7 +44,7 @@ static void write_input(const tn_shard_input *input, tn_json *json)
     tn_json_whole(json, NULL, input->seconds);
     tn_json_whole(json, NULL, input->nanoseconds);
     tn_json_list_end(json);
-    tn_json_string(json, "format", manifest_formats()[input->format]);
+    tn_json_string(json, "format", formats[input->format]);
     tn_json_object_end(json);
 }
 
@@ -82,7 +86,7 @@ static bool read_whole(const json_t *value, int64_t least, int64_t *number)
     return json_is_integer(value) && *number >= least;
 }
 
-static tn_status read_rules(const tn_manifest_reading *r)
+static tn_status read_rules(const reading *r)
 {
     const json_t *rules = json_object_get(r->manifest, "rules");
     tn_shard_inputs *inputs = &r->set->inputs;
@@ -90,7 +94,7 @@ static tn_status read_rules(const tn_manifest_reading *r)
     if (!rules)
         return TN_OK;
     if (count == 0 || count > UINT32_MAX || r->set->task != TN_TASK_MATCH)
-        return manifest_refuse(r, "`rules` is no list of rules to match");
+        return refuse(r, "`rules` is no list of rules to match");
     inputs->rules = calloc(count, sizeof *inputs->rules);
     if (!inputs->rules)
         return tn_fail_memory(r->error);
@@ -98,7 +102,7 @@ static tn_status read_rules(const tn_manifest_reading *r)
     for (size_t i = 0; i < count; i++) {
         const char *name = json_string_value(json_array_get(rules, i));
         if (!name)
-            return manifest_refuse(r, "`rules` is no list of rules to match");
+            return refuse(r, "`rules` is no list of rules to match");
         inputs->rules[i] = strdup(name);
         if (!inputs->rules[i])
             return tn_fail_memory(r->error);
@@ -106,7 +110,7 @@ static tn_status read_rules(const tn_manifest_reading *r)
     return TN_OK;
 }
 
-static tn_status read_input(const tn_manifest_reading *r, uint32_t i, const json_t *said)
+static tn_status read_input(const reading *r, uint32_t i, const json_t *said)
 {
     tn_shard_input *input = &r->set->inputs.items[i];
     const char *path = json_string_value(json_object_get(said, "path"));
@@ -114,30 +118,30 @@ static tn_status read_input(const tn_manifest_reading *r, uint32_t i, const json
     const json_t *changed = json_object_get(said, "changed");
     int64_t size;
     if (!path || path[0] != '/')
-        return manifest_refuse(r, "input %u has no `path` from the root", i);
+        return refuse(r, "input %u has no `path` from the root", i);
     if (!read_whole(json_object_get(said, "size"), 0, &size) || json_array_size(changed) != 2 ||
         !read_whole(json_array_get(changed, 0), INT64_MIN, &input->seconds) ||
         !read_whole(json_array_get(changed, 1), 0, &input->nanoseconds))
-        return manifest_refuse(r, "input %u has no `size`, or no time when it was `changed`", i);
+        return refuse(r, "input %u has no `size`, or no time when it was `changed`", i);
     input->size = (uint64_t)size;
     for (int f = 0; format && f < TN_FORMAT_COUNT; f++)
-        if (manifest_formats()[f] && strcmp(manifest_formats()[f], format) == 0)
+        if (formats[f] && strcmp(formats[f], format) == 0)
             input->format = (tn_plan_format)f;
     if (input->format == TN_FORMAT_AUTO)
-        return manifest_refuse(r, "input %u has no `format`", i);
+        return refuse(r, "input %u has no `format`", i);
     input->path = strdup(path);
     return input->path ? TN_OK : tn_fail_memory(r->error);
 }
 
-static tn_status read_files(const tn_manifest_reading *r)
+static tn_status read_files(const reading *r)
 {
     const json_t *said = json_object_get(r->manifest, "inputs");
     tn_shard_inputs *inputs = &r->set->inputs;
     size_t count = json_array_size(said);
     if (count == 0)
-        return manifest_refuse(r, "it has no list `inputs`");
+        return refuse(r, "it has no list `inputs`");
     if (count > TN_SHARDS_MAX)
-        return manifest_refuse(r, "it has %zu inputs, and %u is the most", count, TN_SHARDS_MAX);
+        return refuse(r, "it has %zu inputs, and %u is the most", count, TN_SHARDS_MAX);
     inputs->items = calloc(count, sizeof *inputs->items);
     if (!inputs->items)
         return tn_fail_memory(r->error);
@@ -149,21 +153,21 @@ static tn_status read_files(const tn_manifest_reading *r)
 }
 
 /* What a set of answers is about: all but its shards; and shard i, which is said in `shard`. (manifest_inputs.c) */
-static tn_status manifest_read_inputs(const tn_manifest_reading *r)
+static tn_status read_inputs(const reading *r)
 {
     int answer;
     const json_t *on_error = json_object_get(r->manifest, "on_error");
     tn_shard_inputs *inputs = &r->set->inputs;
-    tn_status status = manifest_word(r, "answer", answers, TN_ANSWER_FORMAT_COUNT, &answer);
+    tn_status status = word(r, "answer", answers, TN_ANSWER_FORMAT_COUNT, &answer);
     if (status != TN_OK)
         return status;
     bool plans = r->set->task == TN_TASK_PRUNE;
     if (answer != TN_ANSWER_JSON && (answer == TN_ANSWER_LINES) != plans)
-        return manifest_refuse(r, "`answer` is none of those of the task");
+        return refuse(r, "`answer` is none of those of the task");
     inputs->answer = (tn_answer_format)answer;
     inputs->skips = on_error && json_is_string(on_error) && strcmp(json_string_value(on_error), "skip") == 0;
     if (on_error && !inputs->skips)
-        return manifest_refuse(r, "`on_error` is not skip");
+        return refuse(r, "`on_error` is not skip");
     status = read_rules(r);
     return status == TN_OK ? read_files(r) : status;
 }
@@ -179,35 +183,24 @@ static bool follows(const tn_shard_inputs *inputs, uint32_t i, const tn_shard_pi
     return !piece->whole && !before->whole && piece->part.begin == before->part.end;
 }
 
-static tn_status manifest_read_piece(const tn_manifest_reading *r, uint32_t i, const json_t *shard)
+static tn_status read_piece(const reading *r, uint32_t i, const json_t *shard)
 {
     tn_shard_inputs *inputs = &r->set->inputs;
     tn_shard_piece *piece = &inputs->pieces[i];
     int64_t input, from = 0, to = 0;
     piece->whole = !json_object_get(shard, "from") && !json_object_get(shard, "to");
     if (!read_whole(json_object_get(shard, "input"), 0, &input) || input >= inputs->count)
-        return manifest_refuse(r, "shard %u has no `input`", i);
+        return refuse(r, "shard %u has no `input`", i);
     if (!piece->whole &&
         (!read_whole(json_object_get(shard, "from"), 0, &from) ||
          !read_whole(json_object_get(shard, "to"), from, &to) || (uint64_t)to > inputs->items[input].size))
-        return manifest_refuse(r, "shard %u has no part `from` and `to` of its input", i);
+        return refuse(r, "shard %u has no part `from` and `to` of its input", i);
     piece->input = (uint32_t)input;
     piece->part = (tn_plan_part){(uint64_t)from, (uint64_t)to};
     bool last = i + 1 == r->set->count;
     if (!follows(inputs, i, piece) || (last && piece->input + 1 != inputs->count))
-        return manifest_refuse(r, "shard %u does not follow the one before it, or leaves something out", i);
+        return refuse(r, "shard %u does not follow the one before it, or leaves something out", i);
     return TN_OK;
-}
-
-/* How formats are called, as by --format. */
-static const char *const formats[TN_FORMAT_COUNT] = {
-    [TN_FORMAT_LINES] = "lines", [TN_FORMAT_JSON] = "json",     [TN_FORMAT_CSV] = "csv",
-    [TN_FORMAT_BIN] = "bin",     [TN_FORMAT_SQLITE] = "sqlite", [TN_FORMAT_PARQUET] = "parquet"};
-
-/* Names of formats of plans, as by --format. */
-static const char *const *manifest_formats(void)
-{
-    return formats;
 }
 
 static const char *const tasks[TN_TASK_COUNT] = {[TN_TASK_ENUMERATE] = "enumerate",
@@ -316,10 +309,8 @@ bool tn_manifest_write(const tn_shard_set *set, tn_buffer *text, char hash[33])
 
 /* ---- reading */
 
-typedef tn_manifest_reading reading;
-
 /* E1702 with what is wrong. Returns TN_INVALID. */
-static tn_status manifest_refuse(const reading *r, const char *format, ...)
+static tn_status refuse(const reading *r, const char *format, ...)
 {
     char text[300];
     va_list args;
@@ -335,7 +326,7 @@ static tn_status read_text(const reading *r, const char *key, char **text)
 {
     const char *value = json_string_value(json_object_get(r->manifest, key));
     if (!value)
-        return manifest_refuse(r, "it has no text `%s`", key);
+        return refuse(r, "it has no text `%s`", key);
     *text = strdup(value);
     return *text ? TN_OK : tn_fail_memory(r->error);
 }
@@ -344,7 +335,7 @@ static tn_status read_hash(const reading *r, const char *key, char *hash, size_t
 {
     const char *value = json_string_value(json_object_get(r->manifest, key));
     if (!value || strlen(value) != digits || strspn(value, "0123456789abcdef") != digits)
-        return manifest_refuse(r, "`%s` is no hash of %zu digits", key, digits);
+        return refuse(r, "`%s` is no hash of %zu digits", key, digits);
     memcpy(hash, value, digits + 1);
     return TN_OK;
 }
@@ -353,7 +344,7 @@ static tn_status read_version(const reading *r)
 {
     const json_t *version = json_object_get(r->manifest, "tartan_shards");
     if (!json_is_integer(version))
-        return manifest_refuse(r, "it is not the manifest of a shard set");
+        return refuse(r, "it is not the manifest of a shard set");
     if (json_integer_value(version) == TN_MANIFEST_VERSION)
         return TN_OK;
     tn_fail(r->error, TN_INVALID, E_SHARD_VERSION,
@@ -383,35 +374,34 @@ static tn_status check_seal(const reading *r, const char *text, size_t size)
         if ((size_t)length == size - (size_t)(seal - text) && memcmp(seal, wanted, (size_t)length) == 0)
             return TN_OK;
     }
-    return manifest_refuse(r, "it was changed after it was made: its hash does not fit what it holds");
+    return refuse(r, "it was changed after it was made: its hash does not fit what it holds");
 }
 
 /* The number of one of these words, which are what `key` can be; NULL words are none. */
-static tn_status manifest_word(const reading *r, const char *key, const char *const *words, int count, int *number)
+static tn_status word(const reading *r, const char *key, const char *const *words, int count, int *number)
 {
     const char *word = json_string_value(json_object_get(r->manifest, key));
     for (*number = 0; word && *number < count; ++*number)
         if (words[*number] && strcmp(words[*number], word) == 0)
             return TN_OK;
-    return manifest_refuse(r, "`%s` is none that is known", key);
+    return refuse(r, "`%s` is none that is known", key);
 }
 
 static tn_status read_format(const reading *r)
 {
     int format;
-    tn_status status = manifest_word(r, "format", formats, TN_FORMAT_COUNT, &format);
+    tn_status status = word(r, "format", formats, TN_FORMAT_COUNT, &format);
     if (status != TN_OK)
         return status;
     r->set->format = (tn_plan_format)format;
-    return format != TN_FORMAT_SQLITE ? TN_OK
-                                      : manifest_refuse(r, "`format` is none of lines, json, csv, bin and parquet");
+    return format != TN_FORMAT_SQLITE ? TN_OK : refuse(r, "`format` is none of lines, json, csv, bin and parquet");
 }
 
 static tn_status read_compression(const reading *r)
 {
     const json_t *how = json_object_get(r->manifest, "compress");
     r->set->compressed = how && json_is_string(how) && strcmp(json_string_value(how), "zstd") == 0;
-    return !how || r->set->compressed ? TN_OK : manifest_refuse(r, "`compress` is not zstd");
+    return !how || r->set->compressed ? TN_OK : refuse(r, "`compress` is not zstd");
 }
 
 /* What is asked for of Parquet. */
@@ -419,7 +409,7 @@ static tn_status read_columns(const reading *r)
 {
     const json_t *columns = json_object_get(r->manifest, "columns");
     r->set->plan_lines = columns && json_is_string(columns) && strcmp(json_string_value(columns), "plan") == 0;
-    return !columns || r->set->plan_lines ? TN_OK : manifest_refuse(r, "`columns` is not plan");
+    return !columns || r->set->plan_lines ? TN_OK : refuse(r, "`columns` is not plan");
 }
 
 /* A whole number of 32 bits; absent: `otherwise`. */
@@ -427,7 +417,7 @@ static tn_status read_number(const reading *r, const json_t *value, const char *
 {
     json_int_t read = json_integer_value(value);
     if (value && (!json_is_integer(value) || read < 0 || read > UINT32_MAX - 1))
-        return manifest_refuse(r, "`%s` is not a number that it can be", key);
+        return refuse(r, "`%s` is not a number that it can be", key);
     *number = (uint32_t)read;
     return TN_OK;
 }
@@ -444,7 +434,7 @@ static tn_status read_options(const reading *r)
     if (status != TN_OK || !trays)
         return status;
     if (json_array_size(trays) != 2)
-        return manifest_refuse(r, "`trays` is not two numbers");
+        return refuse(r, "`trays` is not two numbers");
     options->override_trays = true;
     status = read_number(r, json_array_get(trays, 0), "trays", &options->trays_min);
     return status == TN_OK ? read_number(r, json_array_get(trays, 1), "trays", &options->trays_max) : status;
@@ -460,7 +450,7 @@ static tn_status read_count(const reading *r, const json_t *object, const char *
 {
     const json_t *value = json_object_get(object, key);
     if (!json_is_integer(value) || json_integer_value(value) < 0)
-        return manifest_refuse(r, "`%s` is no number of plans or draws", key);
+        return refuse(r, "`%s` is no number of plans or draws", key);
     *count = (uint64_t)json_integer_value(value);
     return TN_OK;
 }
@@ -473,7 +463,7 @@ static tn_status read_share(const reading *r, uint32_t i, const json_t *shard)
     mpz_init(ranks);
     mpz_sub(ranks, r->set->bounds[i + 1], r->set->bounds[i]);
     if (status == TN_OK && mpz_cmp_ui(ranks, r->set->sample.of[i]) < 0)
-        status = manifest_refuse(r, "shard %u has more plans than ranks", i);
+        status = refuse(r, "shard %u has more plans than ranks", i);
     mpz_clear(ranks);
     return status;
 }
@@ -492,10 +482,10 @@ static tn_status read_sample(const reading *r)
         return status;
     sample->seed = seed ? strtoull(seed, &end, 10) : 0;
     if (!seed || *seed < '0' || *seed > '9' || *end)
-        return manifest_refuse(r, "`seed` is no number");
+        return refuse(r, "`seed` is no number");
     return sample->plans <= TN_SHARDS_SAMPLE_MAX && sample->attempts <= 8 * sample->plans + 100000
                ? TN_OK
-               : manifest_refuse(r, "its sample is too large");
+               : refuse(r, "its sample is too large");
 }
 
 /* The shares of the shards are those of the whole. */
@@ -504,22 +494,21 @@ static tn_status add_shares(const reading *r)
     uint64_t sum = 0;
     for (uint32_t i = 0; i < r->set->count; i++)
         sum += r->set->sample.of[i];
-    return sum == r->set->sample.plans ? TN_OK : manifest_refuse(r, "its shards do not have all plans of the sample");
+    return sum == r->set->sample.plans ? TN_OK : refuse(r, "its shards do not have all plans of the sample");
 }
 
 static tn_status read_ranks(const reading *r, uint32_t i, const json_t *shard, mpz_t from)
 {
     tn_shard_set *set = r->set;
     if (!read_rank(shard, "from", from) || !read_rank(shard, "to", set->bounds[i + 1]))
-        return manifest_refuse(r, "shard %u has no ranks `from` and `to`", i);
+        return refuse(r, "shard %u has no ranks `from` and `to`", i);
     if (i == 0)
         mpz_set(set->bounds[0], from);
     int order = mpz_cmp(from, set->bounds[i]);
     if (order != 0)
-        return manifest_refuse(r, order < 0 ? "shards %u and %u overlap" : "there are ranks between shards %u and %u",
-                               i - 1, i);
+        return refuse(r, order < 0 ? "shards %u and %u overlap" : "there are ranks between shards %u and %u", i - 1, i);
     if (mpz_cmp(set->bounds[i + 1], from) < 0)
-        return manifest_refuse(r, "shard %u ends before it begins", i);
+        return refuse(r, "shard %u ends before it begins", i);
     return set->task == TN_TASK_SAMPLE ? read_share(r, i, shard) : TN_OK;
 }
 
@@ -528,8 +517,8 @@ static tn_status read_shard(const reading *r, uint32_t i, const json_t *shard, m
     const char *name = json_string_value(json_object_get(shard, "name"));
     tn_shard_name wanted = tn_shard_name_of(r->set, i);
     if (!name || strcmp(name, wanted.text) != 0)
-        return manifest_refuse(r, "shard %u is not called `%s`", i, wanted.text);
-    return tn_shard_set_answers(r->set) ? manifest_read_piece(r, i, shard) : read_ranks(r, i, shard, from);
+        return refuse(r, "shard %u is not called `%s`", i, wanted.text);
+    return tn_shard_set_answers(r->set) ? read_piece(r, i, shard) : read_ranks(r, i, shard, from);
 }
 
 /* Room for what is said of each shard. */
@@ -555,7 +544,7 @@ static tn_status read_shards(const reading *r)
     const json_t *shards = json_object_get(r->manifest, "shards");
     size_t count = json_array_size(shards);
     if (count == 0)
-        return manifest_refuse(r, "it has no list `shards`");
+        return refuse(r, "it has no list `shards`");
     if (count > TN_SHARDS_MAX)
         return tn_fail(r->error, TN_LIMIT, E_SHARD_TOO_MANY, "%.200s has %zu shards, and %u is the most", set->folder,
                        count, TN_SHARDS_MAX);
@@ -605,13 +594,13 @@ static tn_status read_members(const reading *r)
     int task = TN_TASK_ENUMERATE; /* where it is not said */
     tn_status status = TN_OK;
     if (json_object_get(r->manifest, "task"))
-        status = manifest_word(r, "task", tasks, TN_TASK_COUNT, &task);
+        status = word(r, "task", tasks, TN_TASK_COUNT, &task);
     if (status != TN_OK)
         return status;
     r->set->task = (tn_shard_task)task;
     status = read_texts(r);
     if (status == TN_OK)
-        status = tn_shard_set_answers(r->set) ? manifest_read_inputs(r) : read_plans(r);
+        status = tn_shard_set_answers(r->set) ? read_inputs(r) : read_plans(r);
     if (status == TN_OK)
         status = read_options(r);
     return status == TN_OK ? read_shards(r) : status;
@@ -622,12 +611,99 @@ tn_status tn_manifest_read(const char *text, size_t size, tn_shard_set *set, tn_
     json_error_t wrong;
     reading r = {set, json_loadb(text, size, JSON_REJECT_DUPLICATES, &wrong), error};
     if (!r.manifest)
-        return manifest_refuse(&r, "line %d: %s", wrong.line, wrong.text);
+        return refuse(&r, "line %d: %s", wrong.line, wrong.text);
     tn_status status = read_version(&r);
     if (status == TN_OK)
         status = check_seal(&r, text, size);
     if (status == TN_OK)
         status = read_members(&r);
     json_decref(r.manifest);
+    return status;
+}
+
+/* ---- the folder of a set */
+
+#define MANIFEST_BYTES ((size_t)256 << 20) /* the most: 100,000 shards with ranks of a thousand digits */
+
+static tn_status write_file(const tn_shard_set *set, const char *name, const void *bytes, size_t size, tn_error *error)
+{
+    tn_output output;
+    char *path = tn_shard_set_path(set, name);
+    tn_status status = path ? tn_output_open(path, &output, error) : tn_fail_memory(error);
+    if (status == TN_OK) {
+        fwrite(bytes, 1, size, output.stream);
+        status = tn_output_commit(&output, error);
+    }
+    free(path);
+    return status;
+}
+
+static tn_status make_folder(const tn_shard_set *set, const char *name, tn_error *error)
+{
+    char *path = tn_shard_set_path(set, name);
+    tn_status status = path ? tn_folder_make(path, error) : tn_fail_memory(error);
+    free(path);
+    return status;
+}
+
+static tn_status make_folders(const tn_shard_set *set, tn_error *error)
+{
+    char name[20];
+    tn_status status = tn_folder_make(set->folder, error);
+    if (status == TN_OK)
+        status = make_folder(set, "shards", error);
+    for (uint32_t i = 0; status == TN_OK && i < set->count; i += TN_SHARDS_A_FOLDER) {
+        snprintf(name, sizeof name, "shards/%03u", i / TN_SHARDS_A_FOLDER);
+        status = make_folder(set, name, error);
+    }
+    return status;
+}
+
+/* A set that is there is never written over: its shards would be taken for those of the new one. */
+static tn_status refuse_another(const tn_shard_set *set, tn_error *error)
+{
+    char *path = tn_shard_set_path(set, TN_MANIFEST_NAME), *shards = tn_shard_set_path(set, "shards");
+    bool there = path && shards && (tn_path_exists(path) || tn_path_exists(shards));
+    free(path);
+    free(shards);
+    if (!there)
+        return TN_OK;
+    tn_fail(error, TN_INVALID, E_SHARD_SET_THERE, "%.300s has a shard set already", set->folder);
+    tn_error_help(error, "name another folder after -o, or delete this one");
+    return TN_INVALID;
+}
+
+tn_status tn_shard_set_create(tn_shard_set *set, const uint8_t *module, size_t module_size, tn_error *error)
+{
+    tn_buffer text = {0};
+    tn_hash_bytes(module, module_size, set->module_hash);
+    free(set->version);
+    set->version = strdup(TARTAN_VERSION);
+    tn_status status = refuse_another(set, error);
+    if (status == TN_OK && (!set->version || !tn_manifest_write(set, &text, set->hash)))
+        status = tn_fail_memory(error);
+    if (status == TN_OK)
+        status = make_folders(set, error);
+    if (status == TN_OK)
+        status = write_file(set, TN_MODULE_NAME, module, module_size, error);
+    if (status == TN_OK)
+        status = write_file(set, TN_MANIFEST_NAME, text.data, text.size, error);
+    free(text.data);
+    return status;
+}
+
+tn_status tn_shard_set_read(const char *folder, tn_shard_set *set, tn_error *error)
+{
+    uint8_t *bytes = NULL;
+    size_t size = 0;
+    *set = (tn_shard_set){.folder = strdup(folder)};
+    char *path = set->folder ? tn_shard_set_path(set, TN_MANIFEST_NAME) : NULL;
+    tn_status status = path ? tn_file_read(path, MANIFEST_BYTES, &bytes, &size, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_manifest_read((const char *)bytes, size, set, error);
+    else if (status == TN_IO && path && !tn_path_exists(path))
+        tn_error_help(error, "a shard set is a folder that `tartan shards new` made");
+    free(bytes);
+    free(path);
     return status;
 }

@@ -12,7 +12,6 @@
 #include "driver/open/missing.h"
 #include "driver/shards/hash.h"
 #include "runtime/base/file.h"
-#include "runtime/base/file_error.h"
 #include "runtime/base/integers.h"
 #include "runtime/plan/text/pack.h"
 

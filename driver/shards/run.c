@@ -1,20 +1,412 @@
 /* Claims shards, writes them, and waits for those that others write. */
 #include "driver/shards/run.h"
 
+#include <errno.h>
+#include <fcntl.h>
+#include <inttypes.h>
+#include <jansson.h>
 #include <math.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
-#include "driver/plan/made.h"
-#include "driver/shards/claim.h"
+#include "driver/plan/provenance.h"
 #include "driver/shards/hash.h"
+#include "driver/shards/inputs.h"
 #include "driver/shards/record.h"
-#include "driver/shards/write.h"
-#include "runtime/base/clock.h"
 #include "runtime/base/crew.h"
+#include "runtime/base/file.h"
+#include "runtime/base/integers.h"
+#include "runtime/base/json.h"
+#include "runtime/base/watch.h"
+
+/* ---- claims */
+
+#define TOUCHES 8         /* times that a claim is touched before it would be stale */
+#define WRITTEN_WITHIN 5. /* seconds after which a claim that says nothing is of a worker killed while it made it */
+
+/* ---- this process */
+
+static void read_boot(char *boot, size_t size)
+{
+    int file = open("/proc/sys/kernel/random/boot_id", O_RDONLY | O_CLOEXEC);
+    ssize_t got = file < 0 ? 0 : read(file, boot, size - 1);
+    boot[got > 0 ? got : 0] = '\0';
+    boot[strcspn(boot, "\n")] = '\0';
+    if (file >= 0)
+        close(file);
+}
+
+tn_claimant tn_claimant_self(void)
+{
+    tn_claimant me = {.process = getpid()};
+    if (gethostname(me.host, sizeof me.host - 1) != 0)
+        me.host[0] = '\0';
+    read_boot(me.boot, sizeof me.boot);
+    ssize_t got = readlink("/proc/self/ns/pid", me.space, sizeof me.space - 1);
+    me.space[got > 0 ? got : 0] = '\0';
+    return me;
+}
+
+/* What a claim says. */
+static void describe_claim(const tn_claimant *self, tn_buffer *text)
+{
+    char since[sizeof self->since] = "";
+    time_t now = time(NULL);
+    struct tm parts;
+    if (gmtime_r(&now, &parts))
+        strftime(since, sizeof since, "%Y-%m-%dT%H:%M:%SZ", &parts);
+    tn_json json = tn_json_text(text, TN_JSON_SPACED);
+    tn_json_object(&json, NULL);
+    tn_json_string(&json, "host", self->host);
+    tn_json_string(&json, "boot", self->boot);
+    tn_json_string(&json, "space", self->space);
+    tn_json_whole(&json, "process", self->process);
+    tn_json_string(&json, "since", since);
+    tn_json_object_end(&json);
+}
+
+/* ---- whose claim is it? */
+
+static void copy_text(const json_t *json, const char *key, char *text, size_t size)
+{
+    const char *value = json_string_value(json_object_get(json, key));
+    snprintf(text, size, "%s", value ? value : "");
+}
+
+/* A new file in a folder, of which nothing is left when it is closed: without a name, where the file system has that.
+ */
+static int open_passing(const char *folder)
+{
+    char path[4096];
+    int file = open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+    if (file >= 0 || snprintf(path, sizeof path, "%s/.tartan-%ld.tmp", folder, (long)getpid()) >= (int)sizeof path)
+        return file;
+    file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file >= 0)
+        unlink(path);
+    return file;
+}
+
+/* What the file system would call now: the time that it gives to a file which is made now. */
+static bool file_system_time(const char *beside, struct timespec *now)
+{
+    char folder[4096];
+    struct stat known;
+    int length = (int)(strrchr(beside, '/') ? strrchr(beside, '/') - beside : 0);
+    snprintf(folder, sizeof folder, "%.*s", length ? length : 1, length ? beside : ".");
+    int file = open_passing(folder);
+    if (file < 0)
+        return clock_gettime(CLOCK_REALTIME, now) == 0;
+    bool done = fstat(file, &known) == 0;
+    close(file);
+    *now = known.st_mtim;
+    return done;
+}
+
+static double seconds_of(struct timespec time)
+{
+    return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
+}
+
+bool tn_claim_read(const char *path, tn_claimant *claimant)
+{
+    struct stat known;
+    struct timespec now;
+    *claimant = (tn_claimant){0};
+    if (lstat(path, &known) != 0)
+        return false;
+    bool regular = S_ISREG(known.st_mode);                         /* what is none, such as a pipe, says nothing */
+    json_t *json = regular ? json_load_file(path, 0, NULL) : NULL; /* NULL where it is being written */
+    copy_text(json, "host", claimant->host, sizeof claimant->host);
+    copy_text(json, "boot", claimant->boot, sizeof claimant->boot);
+    copy_text(json, "space", claimant->space, sizeof claimant->space);
+    copy_text(json, "since", claimant->since, sizeof claimant->since);
+    claimant->process = json_integer_value(json_object_get(json, "process"));
+    json_decref(json);
+    if (file_system_time(path, &now))
+        claimant->age = seconds_of(now) - seconds_of(known.st_mtim);
+    return true;
+}
+
+/* Has its process ended? Only known of processes that this one can see. A claim of this very process is left from an
+ * earlier one with its number: it does each shard once at a time. */
+static bool is_gone(const tn_claimant *claimant, const tn_claimant *self)
+{
+    bool visible = claimant->process > 0 && claimant->boot[0] && strcmp(claimant->boot, self->boot) == 0 &&
+                   strcmp(claimant->space, self->space) == 0;
+    if (!visible)
+        return false;
+    return claimant->process == self->process || (kill((pid_t)claimant->process, 0) != 0 && errno == ESRCH);
+}
+
+/* ---- taking and giving up */
+
+/* Makes the claim's file. False where that cannot be; errno says why. */
+static bool make(const char *path, const tn_claimant *self, tn_claim *claim)
+{
+    tn_buffer text = {0};
+    describe_claim(self, &text);
+    char *own = strdup(path);
+    bool made = own && !text.failed;
+    int file = made ? open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666) : -1;
+    bool written = file >= 0 && write(file, text.data, text.size) == (ssize_t)text.size;
+    int reason = made ? errno : ENOMEM;
+    if (file >= 0)
+        close(file);
+    if (file >= 0 && !written)
+        unlink(path);
+    free(text.data);
+    claim->path = written ? own : NULL;
+    claim->touched = tn_seconds();
+    if (!written)
+        free(own);
+    errno = reason;
+    return written;
+}
+
+/* Nothing is lost where a claim is taken over whose worker lives: two write the same shard. */
+static bool may_be_taken(const tn_claimant *other, const tn_claimant *self, double stale)
+{
+    double silent = fabs(other->age);
+    return silent > stale || is_gone(other, self) || (other->process == 0 && silent > WRITTEN_WITHIN);
+}
+
+tn_status tn_claim_take(const char *path, const tn_claimant *self, double stale, tn_claim *claim, bool *taken,
+                        tn_error *error)
+{
+    tn_claimant other;
+    *claim = (tn_claim){0};
+    *taken = make(path, self, claim);
+    if (*taken)
+        return TN_OK;
+    if (errno != EEXIST)
+        return tn_cannot_write(path, errno, error);
+    if (!tn_claim_read(path, &other) || !may_be_taken(&other, self, stale))
+        return TN_OK; /* given up just now, or held */
+    if (unlink(path) != 0 && errno != ENOENT)
+        return tn_cannot_write(path, errno, error);
+    *taken = make(path, self, claim);
+    return *taken || errno == EEXIST ? TN_OK : tn_cannot_write(path, errno, error);
+}
+
+/* Says that the worker is still there, where it was last said long enough ago. */
+static void claim_touch(tn_claim *claim, double stale)
+{
+    double now = tn_seconds();
+    if (!claim->path || now - claim->touched < stale / TOUCHES)
+        return;
+    utimensat(AT_FDCWD, claim->path, NULL, 0); /* where it was taken over, that does no harm */
+    claim->touched = now;
+}
+
+void tn_claim_release(tn_claim *claim)
+{
+    if (claim->path)
+        unlink(claim->path);
+    free(claim->path);
+    *claim = (tn_claim){0};
+}
+
+/* ---- running */
+
+/* Which shard, and what is looked at meanwhile. */
+typedef struct shard_writing_now {
+    uint32_t shard;
+    tn_claim *claim; /* touched */
+    double stale;
+    tn_watch *watch;              /* TN_STOPPED by it */
+    const tn_seen_bytes *written; /* sees its bytes */
+} shard_writing_now;
+
+/* ---- one shard of answers */
+
+typedef struct answer_writing {
+    const tn_shard_set *set;
+    const tn_answering *answering;
+    const shard_writing_now *now;
+    tn_shard_read *read;
+    FILE *out;
+    tn_status status; /* why it ended early */
+    tn_error *error;
+} answer_writing;
+
+static bool describe(const void *context, const tn_sifted *plan, tn_buffer texts[TN_RELAY_TEXTS])
+{
+    const answer_writing *a = context;
+    return a->answering->plan(a->answering->context, plan, texts);
+}
+
+static bool write_texts(void *context, uint64_t plans, const tn_buffer texts[TN_RELAY_TEXTS])
+{
+    (void)plans;
+    answer_writing *a = context;
+    bool written = texts[0].size == 0 || fwrite(texts[0].data, 1, texts[0].size, a->out) == texts[0].size;
+    claim_touch(a->now->claim, a->now->stale);
+    if (written)
+        a->status = tn_watch_check(a->now->watch, a->error);
+    return written && a->status == TN_OK;
+}
+
+/* The failure, with the file and the line in it. */
+static void refuse_plan(answer_writing *a, const tn_error *complaint)
+{
+    const tn_shard_input *input = &a->set->inputs.items[a->set->inputs.pieces[a->now->shard].input];
+    uint64_t before;
+    a->status = tn_shard_lines_before(a->set, a->answering->schema, a->now->shard, &before, a->error);
+    if (a->status != TN_OK)
+        return;
+    a->status = tn_fail(a->error, complaint->status, complaint->code, "%.200s:%" PRIu64 ":%u: %.240s", input->path,
+                        before + complaint->line, complaint->column, complaint->message);
+    if (complaint->help[0])
+        tn_error_help(a->error, "%s", complaint->help);
+}
+
+static bool complain(void *context, const tn_error *complaint, const char *text, size_t size)
+{
+    (void)text, (void)size;
+    answer_writing *a = context;
+    if (!a->set->inputs.skips)
+        refuse_plan(a, complaint);
+    else if (a->read->unread++ < TN_COMPLAINTS_KEPT)
+        a->read->complaints[a->read->unread - 1] = *complaint;
+    return a->set->inputs.skips;
+}
+
+static tn_status sift_piece(answer_writing *a, tn_plan_reader *reader, tn_error *error)
+{
+    const tn_sift_calls calls = {.context = a,
+                                 .numbered = a->answering->numbered,
+                                 .any = a->answering->any,
+                                 .plan = describe,
+                                 .write = write_texts,
+                                 .bad = complain,
+                                 .lines = &a->read->lines};
+    tn_status status = tn_sift(reader, a->answering->rules, 1, &calls, error);
+    return status == TN_OK ? a->status : status;
+}
+
+/* What is said of the plans of a piece of a file; fills `read`, which is zero. A plan that cannot be read is what the
+ * failure is about, with its line in the whole file, unless the set skips such plans. TN_IO; E1733 as of
+ * tn_shard_input_open. */
+static tn_status shard_answer(const tn_shard_set *set, const tn_answering *answering, const shard_writing_now *now,
+                              tn_shard_read *read, tn_error *error)
+{
+    tn_plan_reader *reader = NULL;
+    tn_output output = {0};
+    char *path = tn_shard_path(set, now->shard, "");
+    tn_status status =
+        path ? tn_shard_input_open(set, answering->schema, now->shard, &reader, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_output_open_seen(path, now->written, &output, error);
+    if (status == TN_OK) {
+        answer_writing a = {set, answering, now, read, output.stream, TN_OK, error};
+        status = sift_piece(&a, reader, error);
+        if (status == TN_OK)
+            status = tn_output_commit(&output, error);
+        else
+            tn_output_discard(&output);
+    }
+    tn_plan_reader_free(reader);
+    free(path);
+    return status;
+}
+
+#define LOOK_EVERY 4096u /* plans between looks at the clock and for interruptions */
+
+static char *words_of(const tn_shard_set *set, uint32_t shard)
+{
+    if (set->task == TN_TASK_SAMPLE)
+        return strdup(set->command);
+    char *from = mpz_get_str(NULL, 10, set->bounds[shard]), *to = mpz_get_str(NULL, 10, set->bounds[shard + 1]);
+    const tn_enumerated asked = {.from = from,
+                                 .to = to,
+                                 .trays_given = set->options.override_trays,
+                                 .trays_min = set->options.trays_min,
+                                 .trays_max = set->options.trays_max};
+    char *words = from && to ? tn_enumerated_words(&asked) : NULL;
+    free(from);
+    free(to);
+    return words;
+}
+
+static tn_status write_sampled(const tn_shard_set *set, const tn_ready_library *ready, mpz_srcptr ranks,
+                               const shard_writing_now *now, tn_plan_writer *writer, tn_error *error)
+{
+    mpz_t *sampled;
+    size_t count;
+    tn_tray *trays = malloc(((size_t)tn_library_max(ready->library) + 1) * sizeof *trays);
+    tn_status status = tn_shard_sampled(set, ranks, now->shard, &sampled, &count, now->watch, error);
+    if (status == TN_OK && !trays)
+        status = tn_fail_memory(error);
+    for (size_t i = 0; status == TN_OK && i < count; i++) {
+        uint32_t length;
+        status = tn_library_unrank(ready->library, sampled[i], trays, &length)
+                     ? tn_plan_writer_write(writer, sampled[i], trays, length, error)
+                     : tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a sampled rank is not in the library");
+        if (status == TN_OK && (i + 1) % LOOK_EVERY == 0) {
+            claim_touch(now->claim, now->stale);
+            status = tn_watch_check(now->watch, error);
+        }
+    }
+    tn_integers_free(sampled, count);
+    free(trays);
+    return status;
+}
+
+static tn_status write_plans(const tn_shard_set *set, const tn_ready_library *ready, const shard_writing_now *now,
+                             tn_plan_writer *writer, tn_error *error)
+{
+    uint32_t shard = now->shard;
+    tn_cursor *cursor;
+    const tn_tray *trays;
+    uint32_t length;
+    size_t seen = 0;
+    tn_status status = tn_cursor_new(ready->library, set->bounds[shard], set->bounds[shard + 1], &cursor, error);
+    if (status != TN_OK)
+        return status;
+    mpz_t rank;
+    mpz_init_set(rank, set->bounds[shard]);
+    while (status == TN_OK && tn_cursor_next(cursor, &trays, &length)) {
+        status = tn_plan_writer_write(writer, rank, trays, length, error);
+        mpz_add_ui(rank, rank, 1);
+        if (status == TN_OK && ++seen % LOOK_EVERY == 0) {
+            claim_touch(now->claim, now->stale);
+            status = tn_watch_check(now->watch, error);
+        }
+    }
+    mpz_clear(rank);
+    tn_cursor_free(cursor);
+    return status;
+}
+
+/* Plans of the library. `ranks`: how many it has. */
+static tn_status shard_enumerate(const tn_shard_set *set, const tn_ready_library *ready,
+                                 const tn_plan_metadata *metadata, mpz_srcptr ranks, const shard_writing_now *now,
+                                 tn_error *error)
+{
+    char *path = tn_shard_path(set, now->shard, ""), *words = words_of(set, now->shard);
+    tn_plan_writer *writer = NULL;
+    tn_writer_options options = tn_shard_writing(set, metadata, ranks);
+    options.metadata.command = words;
+    options.written = now->written;
+    tn_status status =
+        path && words ? tn_plan_writer_open(ready->schema, path, &options, &writer, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = set->task == TN_TASK_SAMPLE ? write_sampled(set, ready, ranks, now, writer, error)
+                                             : write_plans(set, ready, now, writer, error);
+    if (status == TN_OK)
+        status = tn_plan_writer_close(writer, error);
+    tn_plan_writer_free(writer);
+    free(path);
+    free(words);
+    return status;
+}
+
+/* ---- a share of the shards */
 
 #define WAIT_FIRST 0.05 /* seconds until it is looked again whether others are done */
 #define WAIT_MOST 2.0   /* and at most */
@@ -28,7 +420,7 @@ typedef struct failure {
 
 typedef struct running {
     const tn_shards_job *job;
-    const tn_made *made;
+    const tn_provenance *provenance;
     mpz_t ranks;      /* how many the library has */
     tn_claimant self; /* this process */
     double start;
@@ -50,10 +442,10 @@ static tn_status write_file(const running *run, uint32_t shard, tn_claim *claim,
                             tn_shard_read *read, tn_error *error)
 {
     const tn_shards_job *job = run->job;
-    const tn_shard_writing_now now = {shard, claim, job->stale, job->watch, written};
+    const shard_writing_now now = {shard, claim, job->stale, job->watch, written};
     return tn_shard_set_answers(job->set)
-               ? tn_shard_answer(job->set, job->answering, &now, read, error)
-               : tn_shard_enumerate(job->set, job->ready, &run->made->metadata, run->ranks, &now, error);
+               ? shard_answer(job->set, job->answering, &now, read, error)
+               : shard_enumerate(job->set, job->ready, &run->provenance->metadata, run->ranks, &now, error);
 }
 
 /* A shard, and its record. It is hashed while it is written, so that it need not be read again. */
@@ -294,12 +686,12 @@ tn_status tn_shards_run(const tn_shards_job *job, tn_shards_done *done, tn_error
 {
     uint32_t count = job->end - job->begin;
     passed now = {0};
-    tn_made made;
+    tn_provenance provenance;
     bool answers = tn_shard_set_answers(job->set);
     if (!answers)
-        tn_made_describe(job->opened, job->ready, job->set->rules_path, NULL, &made);
+        tn_provenance_describe(job->opened, job->ready, job->set->rules_path, NULL, &provenance);
     running run = {.job = job,
-                   .made = &made,
+                   .provenance = &provenance,
                    .self = tn_claimant_self(),
                    .start = tn_seconds(),
                    .done = calloc(count + 1, sizeof *run.done)};

@@ -10,12 +10,44 @@
 #include "driver/open/missing.h"
 #include "driver/parquet/parquet.h"
 #include "driver/shards/hash.h"
-#include "driver/shards/manifest.h"
 #include "driver/zstd/zstd.h"
 #include "runtime/base/file.h"
+#include "runtime/plan/library/library.h"
+#include "runtime/plan/library/sample.h"
 #include "runtime/plan/text/pack.h"
 
-#define MANIFEST_BYTES ((size_t)256 << 20) /* the most: 100,000 shards with ranks of a thousand digits */
+/* ---- samples */
+
+static tn_draws draws_of(const tn_shard_set *set, mpz_srcptr all)
+{
+    return (tn_draws){.seed = set->sample.seed,
+                      .stream = TN_ALL_LENGTHS,
+                      .bound = all,
+                      .wanted = set->sample.plans,
+                      .attempts = set->sample.attempts};
+}
+
+tn_status tn_shard_set_sample(tn_shard_set *set, const mpz_t all, uint64_t plans, uint64_t seed, size_t memory,
+                              tn_watch *watch, tn_error *error)
+{
+    set->task = TN_TASK_SAMPLE;
+    set->sample.seed = seed;
+    set->sample.plans = mpz_cmp_ui(all, plans) < 0 ? mpz_get_ui(all) : plans;
+    set->sample.of = calloc((size_t)set->count + 1, sizeof *set->sample.of);
+    tn_draws draws = draws_of(set, all);
+    tn_status status = set->sample.of ? tn_draws_count(&draws, (const mpz_t *)set->bounds, set->count, set->sample.of,
+                                                       memory, watch, error)
+                                      : tn_fail_memory(error);
+    set->sample.attempts = draws.attempts;
+    return status;
+}
+
+tn_status tn_shard_sampled(const tn_shard_set *set, const mpz_t all, uint32_t shard, mpz_t **ranks, size_t *count,
+                           tn_watch *watch, tn_error *error)
+{
+    const tn_draws draws = draws_of(set, all);
+    return tn_draws_between(&draws, set->bounds[shard], set->bounds[shard + 1], ranks, count, watch, error);
+}
 
 static void clear_inputs(tn_shard_inputs *inputs)
 {
@@ -180,92 +212,7 @@ tn_status tn_shard_set_divide(tn_shard_set *set, const mpz_t from, const mpz_t t
     return status;
 }
 
-/* ---- creating */
-
-static tn_status write_file(const tn_shard_set *set, const char *name, const void *bytes, size_t size, tn_error *error)
-{
-    tn_output output;
-    char *path = tn_shard_set_path(set, name);
-    tn_status status = path ? tn_output_open(path, &output, error) : tn_fail_memory(error);
-    if (status == TN_OK) {
-        fwrite(bytes, 1, size, output.stream);
-        status = tn_output_commit(&output, error);
-    }
-    free(path);
-    return status;
-}
-
-static tn_status make_folder(const tn_shard_set *set, const char *name, tn_error *error)
-{
-    char *path = tn_shard_set_path(set, name);
-    tn_status status = path ? tn_folder_make(path, error) : tn_fail_memory(error);
-    free(path);
-    return status;
-}
-
-static tn_status make_folders(const tn_shard_set *set, tn_error *error)
-{
-    char name[20];
-    tn_status status = tn_folder_make(set->folder, error);
-    if (status == TN_OK)
-        status = make_folder(set, "shards", error);
-    for (uint32_t i = 0; status == TN_OK && i < set->count; i += TN_SHARDS_A_FOLDER) {
-        snprintf(name, sizeof name, "shards/%03u", i / TN_SHARDS_A_FOLDER);
-        status = make_folder(set, name, error);
-    }
-    return status;
-}
-
-/* A set that is there is never written over: its shards would be taken for those of the new one. */
-static tn_status refuse_another(const tn_shard_set *set, tn_error *error)
-{
-    char *path = tn_shard_set_path(set, TN_MANIFEST_NAME), *shards = tn_shard_set_path(set, "shards");
-    bool there = path && shards && (tn_path_exists(path) || tn_path_exists(shards));
-    free(path);
-    free(shards);
-    if (!there)
-        return TN_OK;
-    tn_fail(error, TN_INVALID, E_SHARD_SET_THERE, "%.300s has a shard set already", set->folder);
-    tn_error_help(error, "name another folder after -o, or delete this one");
-    return TN_INVALID;
-}
-
-tn_status tn_shard_set_create(tn_shard_set *set, const uint8_t *module, size_t module_size, tn_error *error)
-{
-    tn_buffer text = {0};
-    tn_hash_bytes(module, module_size, set->module_hash);
-    free(set->version);
-    set->version = strdup(TARTAN_VERSION);
-    tn_status status = refuse_another(set, error);
-    if (status == TN_OK && (!set->version || !tn_manifest_write(set, &text, set->hash)))
-        status = tn_fail_memory(error);
-    if (status == TN_OK)
-        status = make_folders(set, error);
-    if (status == TN_OK)
-        status = write_file(set, TN_MODULE_NAME, module, module_size, error);
-    if (status == TN_OK)
-        status = write_file(set, TN_MANIFEST_NAME, text.data, text.size, error);
-    free(text.data);
-    return status;
-}
-
-/* ---- reading */
-
-tn_status tn_shard_set_read(const char *folder, tn_shard_set *set, tn_error *error)
-{
-    uint8_t *bytes = NULL;
-    size_t size = 0;
-    *set = (tn_shard_set){.folder = strdup(folder)};
-    char *path = set->folder ? tn_shard_set_path(set, TN_MANIFEST_NAME) : NULL;
-    tn_status status = path ? tn_file_read(path, MANIFEST_BYTES, &bytes, &size, error) : tn_fail_memory(error);
-    if (status == TN_OK)
-        status = tn_manifest_read((const char *)bytes, size, set, error);
-    else if (status == TN_IO && path && !tn_path_exists(path))
-        tn_error_help(error, "a shard set is a folder that `tartan shards new` made");
-    free(bytes);
-    free(path);
-    return status;
-}
+/* ---- is it of this library? */
 
 static const char another_copy[] = "get another copy of the set, or make a new one by `tartan shards new`";
 

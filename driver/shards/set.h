@@ -3,7 +3,7 @@
  * A set is a folder. `manifest.json` says what the shards are and never changes; `rules.tnb` is the module that every
  * worker runs; `shards/000/000000.plans` and so on are the shards, in the order of their ranks. Nothing else is shared,
  * and what a shard holds depends on the manifest and the module alone. Beside a shard lies its record (record.h), and
- * while a worker writes it, its claim (claim.h).
+ * while a worker writes it, its claim (run.h).
  *
  * The shards of other sets are not plans of a library, but what `tartan match` or `tartan prune` says of the plans of
  * large files (inputs.h).
@@ -23,6 +23,10 @@
 
 #define TN_SHARD_RECORD ".record"
 #define TN_SHARD_CLAIM ".claim"
+
+/* Files of a set. */
+#define TN_MANIFEST_NAME "manifest.json"
+#define TN_MODULE_NAME "rules.tnb"
 
 /* What the shards hold. */
 typedef enum tn_shard_task {
@@ -89,14 +93,6 @@ typedef struct tn_shard_set {
  * (shards 0) among shards of `plans` plans. Fills count and bounds. TN_LIMIT (E1705) where they are too many. */
 tn_status tn_shard_set_divide(tn_shard_set *set, const mpz_t from, const mpz_t to, uint64_t shards, uint64_t plans,
                               tn_error *error);
-
-/* Makes the folder, with the module and, last, the manifest. hash, module_hash and version are filled. TN_INVALID
- * (E1701) where a set is there already. */
-tn_status tn_shard_set_create(tn_shard_set *set, const uint8_t *module, size_t module_size, tn_error *error);
-
-/* Reads and checks the manifest of a folder: TN_INVALID (E1702) where it is none or was changed, (E1703) where another
- * version of Tartan made it, TN_LIMIT (E1705), TN_IO. Clear the set in any case. */
-tn_status tn_shard_set_read(const char *folder, tn_shard_set *set, tn_error *error);
 void tn_shard_set_clear(tn_shard_set *set);
 
 /* Is the module that which the set was made with? TN_INVALID (E1704). Asked before it is opened. */

@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "driver/report/page.h"
-#include "driver/sheet/sheet_picture.h"
 #include "runtime/genome/picture/sheet.h"
 
 /* clang-format off */

@@ -5,7 +5,7 @@
 
 #include <stdio.h>
 
-#include "driver/open/findings.h"
+#include "driver/open/open.h"
 #include "runtime/scene/view.h"
 #include "runtime/solid/measure.h"
 

@@ -7,7 +7,7 @@
 #include <unistd.h>
 #include <zstd.h>
 
-#include "runtime/base/file_error.h"
+#include "runtime/base/file.h"
 #include "runtime/plan/text/stream.h"
 
 /* Of the levels that keep up with the writing of packed plans, the one that makes the smallest files. */

@@ -9,74 +9,52 @@
 #include "runtime/base/array.h"
 #include "runtime/base/random.h"
 
-/* Tables hold at most this many keys: their slots are at most half full and counted in 32 bits. */
 #define MAX_KEYS (UINT32_C(1) << 30)
 
-/* Where to look for a key first. Keys that follow one another share a block of slots, and so a line of the cache, as
- * they are often asked for one after another. */
-static uint32_t slot_of(uint64_t key, uint32_t mask)
+/* Keys that follow one another share a block of slots, and so a line of the cache, as they are often asked for one
+ * after another. */
+static uint64_t hash_of(uint64_t key)
 {
-    enum { BLOCK_BITS = 4 };
-    return ((uint32_t)tn_mix64(key >> BLOCK_BITS) << BLOCK_BITS | (uint32_t)(key & ((1u << BLOCK_BITS) - 1))) & mask;
+    enum { BLOCK_BITS = 3 };
+    return tn_mix64(key >> BLOCK_BITS) << BLOCK_BITS | (key & ((1u << BLOCK_BITS) - 1));
 }
 
-static bool numbering_grow(tn_numbering *numbering)
+typedef struct wanted_key {
+    const uint64_t *keys;
+    uint64_t key;
+} wanted_key;
+
+static bool is_key(const void *context, uint32_t number)
 {
-    if (numbering->count >= MAX_KEYS)
-        return false;
-    uint32_t capacity = numbering->capacity ? numbering->capacity * 2 : 64;
-    if (!tn_array_resize(&numbering->keys, capacity / 2, sizeof *numbering->keys))
-        return false;
-    uint32_t *slots = calloc(capacity, sizeof *slots);
-    if (!slots)
-        return false;
-    for (uint32_t i = 0; i < numbering->count; i++) {
-        uint32_t at = slot_of(numbering->keys[i], capacity - 1);
-        while (slots[at])
-            at = (at + 1) & (capacity - 1);
-        slots[at] = i + 1;
-    }
-    free(numbering->slots);
-    numbering->slots = slots;
-    numbering->capacity = capacity;
-    return true;
+    const wanted_key *w = context;
+    return w->keys[number] == w->key;
 }
 
 uint32_t tn_number(tn_numbering *numbering, uint64_t key)
 {
-    if (numbering->count >= numbering->capacity / 2 && !numbering_grow(numbering))
+    if (numbering->count >= MAX_KEYS ||
+        !tn_array_reserve(&numbering->keys, &numbering->capacity, numbering->count, 1, sizeof *numbering->keys))
         return UINT32_MAX;
-    uint32_t mask = numbering->capacity - 1;
-    uint32_t at = slot_of(key, mask);
-    for (; numbering->slots[at]; at = (at + 1) & mask)
-        if (numbering->keys[numbering->slots[at] - 1] == key)
-            return numbering->slots[at] - 1;
-    numbering->keys[numbering->count] = key;
-    numbering->slots[at] = ++numbering->count;
-    return numbering->count - 1;
+    wanted_key wanted = {numbering->keys, key};
+    uint32_t number = numbering->count;
+    if (tn_hash_enter(&numbering->table, hash_of(key), is_key, &wanted, &number, NULL) != TN_OK)
+        return UINT32_MAX;
+    if (number == numbering->count)
+        numbering->keys[numbering->count++] = key;
+    return number;
 }
 
 uint32_t tn_number_find(const tn_numbering *numbering, uint64_t key)
 {
-    uint32_t mask = numbering->capacity - 1;
-    if (numbering->capacity == 0)
-        return UINT32_MAX;
-    for (uint32_t at = slot_of(key, mask); numbering->slots[at]; at = (at + 1) & mask)
-        if (numbering->keys[numbering->slots[at] - 1] == key)
-            return numbering->slots[at] - 1;
-    return UINT32_MAX;
+    wanted_key wanted = {numbering->keys, key};
+    return tn_hash_find(&numbering->table, hash_of(key), is_key, &wanted);
 }
 
 uint32_t tn_number_new(tn_numbering *numbering, uint64_t key)
 {
-    if (numbering->count >= numbering->capacity / 2) {
-        if (numbering->count >= MAX_KEYS)
-            return UINT32_MAX;
-        uint32_t capacity = numbering->capacity ? numbering->capacity * 2 : 64;
-        if (!tn_array_resize(&numbering->keys, capacity / 2, sizeof *numbering->keys))
-            return UINT32_MAX;
-        numbering->capacity = capacity;
-    }
+    if (numbering->count >= MAX_KEYS ||
+        !tn_array_reserve(&numbering->keys, &numbering->capacity, numbering->count, 1, sizeof *numbering->keys))
+        return UINT32_MAX;
     numbering->keys[numbering->count] = key;
     return numbering->count++;
 }
@@ -84,7 +62,7 @@ uint32_t tn_number_new(tn_numbering *numbering, uint64_t key)
 void tn_numbering_clear(tn_numbering *numbering)
 {
     free(numbering->keys);
-    free(numbering->slots);
+    tn_hash_clear(&numbering->table);
     *numbering = (tn_numbering){0};
 }
 
@@ -108,74 +86,53 @@ bool tn_key_copy(tn_key *key, const uint32_t *data, size_t size)
     return true;
 }
 
-static uint32_t hash_words(const uint32_t *data, size_t size)
+typedef struct wanted_words {
+    const tn_interner *interner;
+    const uint32_t *data;
+    size_t size;
+} wanted_words;
+
+static bool is_words(const void *context, uint32_t number)
 {
-    return (uint32_t)XXH3_64bits(data, size * sizeof *data);
+    const wanted_words *w = context;
+    size_t size;
+    const uint32_t *words = tn_interned(w->interner, number, &size);
+    return size == w->size && (size == 0 || memcmp(words, w->data, size * sizeof *words) == 0);
 }
 
-static bool interner_grow(tn_interner *interner)
+/* Room for one key more, of so many words. */
+static bool make_room(tn_interner *interner, size_t size)
 {
-    if (interner->count >= MAX_KEYS)
-        return false;
-    uint32_t capacity = interner->capacity ? interner->capacity * 2 : 64;
-    if (!tn_array_resize(&interner->first, capacity / 2 + 1, sizeof *interner->first) ||
-        !tn_array_resize(&interner->hashes, capacity / 2, sizeof *interner->hashes))
+    if (interner->count >= MAX_KEYS ||
+        !tn_array_reserve(&interner->first, &interner->capacity, interner->count, 2, sizeof *interner->first) ||
+        !tn_array_reserve_from(&interner->words, &interner->words_capacity, 256, interner->words_used, size,
+                               sizeof *interner->words))
         return false;
     if (interner->count == 0)
         interner->first[0] = 0;
-    uint32_t *slots = calloc(capacity, sizeof *slots);
-    if (!slots)
-        return false;
-    for (uint32_t i = 0; i < interner->count; i++) {
-        uint32_t at = interner->hashes[i] & (capacity - 1);
-        while (slots[at])
-            at = (at + 1) & (capacity - 1);
-        slots[at] = i + 1;
-    }
-    free(interner->slots);
-    interner->slots = slots;
-    interner->capacity = capacity;
-    return true;
-}
-
-static bool interner_append(tn_interner *interner, const uint32_t *data, size_t size)
-{
-    if (!tn_array_reserve_from(&interner->words, &interner->words_capacity, 256, interner->words_used, size,
-                               sizeof *interner->words))
-        return false;
-    if (size > 0)
-        memcpy(interner->words + interner->words_used, data, size * sizeof *data);
-    interner->words_used += size;
-    interner->first[interner->count + 1] = interner->words_used;
     return true;
 }
 
 uint32_t tn_intern(tn_interner *interner, const uint32_t *data, size_t size)
 {
-    if (interner->count >= interner->capacity / 2 && !interner_grow(interner))
+    wanted_words wanted = {interner, data, size};
+    uint32_t number = interner->count;
+    if (!make_room(interner, size) || tn_hash_enter(&interner->table, XXH3_64bits(data, size * sizeof *data), is_words,
+                                                    &wanted, &number, NULL) != TN_OK)
         return UINT32_MAX;
-    uint32_t mask = interner->capacity - 1;
-    uint32_t hash = hash_words(data, size), at = hash & mask;
-    for (; interner->slots[at]; at = (at + 1) & mask) {
-        size_t other_size;
-        uint32_t number = interner->slots[at] - 1;
-        const uint32_t *other = tn_interned(interner, number, &other_size);
-        if (interner->hashes[number] == hash && other_size == size &&
-            (size == 0 || memcmp(other, data, size * sizeof *data) == 0))
-            return number;
-    }
-    if (!interner_append(interner, data, size))
-        return UINT32_MAX;
-    interner->hashes[interner->count] = hash;
-    interner->slots[at] = ++interner->count;
-    return interner->count - 1;
+    if (number < interner->count)
+        return number;
+    if (size > 0)
+        memcpy(interner->words + interner->words_used, data, size * sizeof *data);
+    interner->words_used += size;
+    interner->first[++interner->count] = interner->words_used;
+    return number;
 }
 
 void tn_interner_clear(tn_interner *interner)
 {
     free(interner->words);
     free(interner->first);
-    free(interner->hashes);
-    free(interner->slots);
+    tn_hash_clear(&interner->table);
     *interner = (tn_interner){0};
 }

@@ -8,11 +8,13 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "runtime/base/hash_table.h"
+
 typedef struct tn_numbering {
-    uint64_t *keys;  /* [count], in order */
-    uint32_t *slots; /* number + 1; 0 is free */
+    uint64_t *keys; /* [count], in order */
     uint32_t count;
-    uint32_t capacity; /* of slots: a power of two */
+    size_t capacity;
+    tn_hash_table table;
 } tn_numbering;
 
 /* The key's number, new or old; UINT32_MAX where out of memory. */
@@ -46,11 +48,10 @@ bool tn_key_copy(tn_key *key, const uint32_t *data, size_t size);
 typedef struct tn_interner {
     uint32_t *words;
     size_t words_used, words_capacity;
-    size_t *first;    /* [count + 1]: key i is words [first[i], first[i + 1]) */
-    uint32_t *hashes; /* [count] */
-    uint32_t *slots;  /* number + 1; 0 is free */
+    size_t *first; /* [count + 1]: key i is words [first[i], first[i + 1]) */
     uint32_t count;
-    uint32_t capacity; /* of slots: a power of two; first and hashes have half as many */
+    size_t capacity;
+    tn_hash_table table;
 } tn_interner;
 
 uint32_t tn_intern(tn_interner *interner, const uint32_t *data, size_t size);

@@ -13,6 +13,7 @@
 #include "runtime/automata/numbering.h"
 #include "runtime/automata/sparse.h"
 #include "runtime/base/array.h"
+#include "runtime/base/hash_table.h"
 
 #define TABLE_ENTRIES_MAX (UINT64_C(1) << 24) /* 64 MB, of which only the pages used take memory */
 #define UNKNOWN 0u
@@ -59,8 +60,7 @@ typedef struct tn_folding {
     uint8_t *accept;
     uint32_t states;
     size_t state_capacity;
-    uint32_t *slots; /* state + 1 by hash; 0 is free */
-    uint32_t slot_capacity;
+    tn_hash_table table;   /* of states, by their rows */
     tn_fold_column *looks; /* [columns] */
     uint64_t work;
 } tn_folding;
@@ -104,24 +104,6 @@ static uint64_t mix(uint64_t hash, uint64_t word)
     return hash ^ hash >> 29;
 }
 
-static bool slots_grow(tn_folding *f)
-{
-    uint32_t capacity = f->slot_capacity ? f->slot_capacity * 2 : 1024;
-    uint32_t *slots = calloc(capacity, sizeof *slots);
-    if (!slots)
-        return false;
-    for (uint32_t s = 0; s < f->states; s++) {
-        uint32_t at = (uint32_t)f->hash[s] & (capacity - 1);
-        while (slots[at])
-            at = (at + 1) & (capacity - 1);
-        slots[at] = s + 1;
-    }
-    free(f->slots);
-    f->slots = slots;
-    f->slot_capacity = capacity;
-    return true;
-}
-
 static bool reserve_state(tn_folding *f, size_t edges)
 {
     if ((size_t)f->states + 1 >= f->state_capacity) {
@@ -133,8 +115,6 @@ static bool reserve_state(tn_folding *f, size_t edges)
         f->first[0] = 0;
         f->state_capacity = capacity;
     }
-    if (2 * (f->states + 1) > f->slot_capacity && !slots_grow(f))
-        return false;
     return tn_array_reserve(&f->edges, &f->edge_capacity, f->edge_count, edges, sizeof *f->edges);
 }
 
@@ -142,6 +122,22 @@ static void look_at(tn_fold_column *look, uint32_t state, uint32_t target)
 {
     look->hash = mix(look->hash, (uint64_t)state << 32 | target);
     look->edges++;
+}
+
+typedef struct wanted_row {
+    const tn_folding *folding;
+    const tn_edge *row;
+    size_t size;
+    uint64_t hash;
+    uint8_t accept;
+} wanted_row;
+
+static bool is_wanted(const void *context, uint32_t s)
+{
+    const wanted_row *w = context;
+    const tn_folding *f = w->folding;
+    return f->hash[s] == w->hash && f->accept[s] == w->accept && f->first[s + 1] - f->first[s] == w->size &&
+           (w->size == 0 || memcmp(f->edges + f->first[s], w->row, w->size * sizeof *w->row) == 0);
 }
 
 /* The state that has this row: an old one, or a new one. */
@@ -153,15 +149,13 @@ static uint32_t intern_row(tn_folding *f, const tn_edge *row, size_t size, uint8
     hash = mix(hash, size);
     if (!reserve_state(f, size))
         return UINT32_MAX;
-    uint32_t at = (uint32_t)hash & (f->slot_capacity - 1);
-    for (; f->slots[at]; at = (at + 1) & (f->slot_capacity - 1)) {
-        uint32_t s = f->slots[at] - 1;
-        if (f->hash[s] == hash && f->accept[s] == accept && f->first[s + 1] - f->first[s] == size &&
-            (size == 0 || memcmp(f->edges + f->first[s], row, size * sizeof *row) == 0))
-            return s;
-    }
-    uint32_t s = f->states++;
-    f->slots[at] = s + 1;
+    wanted_row wanted = {f, row, size, hash, accept};
+    uint32_t s = f->states;
+    if (tn_hash_enter(&f->table, hash, is_wanted, &wanted, &s, NULL) != TN_OK)
+        return UINT32_MAX;
+    if (s < f->states)
+        return s;
+    f->states++;
     f->hash[s] = hash;
     f->accept[s] = accept;
     if (size > 0)
@@ -348,7 +342,7 @@ tn_status tn_sparse_fold(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation o
     free(f.first);
     free(f.hash);
     free(f.accept);
-    free(f.slots);
+    tn_hash_clear(&f.table);
     free(f.looks);
     return status;
 }

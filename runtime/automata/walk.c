@@ -81,3 +81,146 @@ void tn_walk_look(tn_layers *walk, const tn_walk_layer *layer)
         walk->place[layer->states[i]] = i;
     walk->looked = layer;
 }
+
+/* ---- whole layers of keys */
+
+tn_status tn_key_walk_begin(tn_key_walk *walk, uint64_t key, tn_error *error)
+{
+    size_t layers = (size_t)walk->last + 1;
+    walk->forward = calloc(layers, sizeof *walk->forward);
+    walk->backward = calloc(layers, sizeof *walk->backward);
+    walk->counts = calloc(layers, sizeof *walk->counts);
+    bool ok = walk->forward && walk->backward && walk->counts &&
+              tn_number(walk->graph->nodes(walk->graph_context, 0), key) != UINT32_MAX;
+    return ok ? TN_OK : tn_fail_memory(error);
+}
+
+static void drop_forward(tn_key_walk *walk, uint32_t layer, const tn_walk_algebra *algebra, size_t size)
+{
+    clear_elements(walk->forward[layer], (uint32_t)walk->counts[layer], size, algebra);
+    walk->forward[layer] = NULL;
+    walk->counts[layer] = 0;
+}
+
+void tn_key_walk_clear(tn_key_walk *walk, const tn_walk_algebra *forward, const tn_walk_algebra *backward)
+{
+    size_t size = walk->asked.size;
+    for (uint32_t n = 0; walk->counts && n <= walk->last; n++) {
+        drop_forward(walk, n, forward, size);
+        clear_elements(walk->backward[n], walk->backward[n] ? walk->graph->nodes(walk->graph_context, n)->count : 0,
+                       size, backward);
+    }
+    free(walk->forward);
+    free(walk->backward);
+    free(walk->counts);
+    walk->forward = walk->backward = NULL;
+    walk->counts = NULL;
+}
+
+/* Elements up to this place of the layer. False: out of memory. */
+static bool make_elements(tn_key_walk *walk, uint32_t layer, uint32_t place)
+{
+    const tn_key_question *asked = &walk->asked;
+    size_t *count = &walk->counts[layer];
+    if (asked->size == 0 || place < *count)
+        return true;
+    if (!tn_array_reserve(&walk->forward[layer], &walk->next_room, *count, place + 1 - *count, asked->size))
+        return false;
+    for (; *count <= place; ++*count)
+        asked->algebra->zero(asked->context, walk->forward[layer] + *count * asked->size);
+    return true;
+}
+
+static void *element_of(const tn_key_walk *walk, char *const *elements, uint32_t layer, uint32_t place)
+{
+    return walk->asked.size > 0 ? elements[layer] + place * walk->asked.size : NULL;
+}
+
+tn_status tn_key_walk_edge_to(tn_key_walk *walk, uint32_t from, uint32_t to, const void *label, tn_error *error)
+{
+    const tn_key_question *asked = &walk->asked;
+    const tn_walk_edge edge = {walk->layer, from, to, label};
+    if (walk->backwards)
+        return asked->algebra->add(asked->context, element_of(walk, walk->backward, edge.layer, from),
+                                   element_of(walk, walk->backward, edge.layer + 1, to), &edge, error);
+    if (!make_elements(walk, edge.layer + 1, to))
+        return tn_fail_memory(error);
+    return asked->algebra->add(asked->context, element_of(walk, walk->forward, edge.layer + 1, to),
+                               element_of(walk, walk->forward, edge.layer, from), &edge, error);
+}
+
+tn_status tn_key_walk_edge(tn_key_walk *walk, uint32_t from, uint64_t key, const void *label, tn_error *error)
+{
+    tn_numbering *next = walk->graph->nodes(walk->graph_context, walk->layer + 1);
+    uint32_t to = walk->backwards ? tn_number_find(next, key) : tn_number(next, key);
+    return to != UINT32_MAX  ? tn_key_walk_edge_to(walk, from, to, label, error)
+           : walk->backwards ? TN_OK
+                             : tn_fail_memory(error);
+}
+
+tn_status tn_key_walk_end(tn_key_walk *walk, uint32_t from, const void *label, tn_error *error)
+{
+    const tn_key_question *asked = &walk->asked;
+    const tn_walk_edge edge = {walk->layer, from, TN_NO_STATE, label};
+    char *const *elements = walk->backwards ? walk->backward : walk->forward;
+    return asked->end(asked->context, element_of(walk, elements, edge.layer, from), &edge, error);
+}
+
+static tn_status show_layer(tn_key_walk *walk, tn_error *error)
+{
+    tn_status status = TN_OK;
+    if (walk->asked.end)
+        status = walk->graph->ends(walk->graph_context, walk->layer, walk, error);
+    if (status == TN_OK && walk->layer < walk->last)
+        status = walk->graph->edges(walk->graph_context, walk->layer, walk, error);
+    return status;
+}
+
+static tn_status settle(const tn_key_walk *walk, char *const *elements, uint32_t count, tn_error *error)
+{
+    const tn_key_question *asked = &walk->asked;
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; asked->algebra->settle && status == TN_OK && i < count; i++)
+        status =
+            asked->algebra->settle(asked->context, walk->layer, i, element_of(walk, elements, walk->layer, i), error);
+    return status;
+}
+
+tn_status tn_key_walk_forward(tn_key_walk *walk, const tn_key_question *question, tn_error *error)
+{
+    const tn_walk_algebra *algebra = question->algebra;
+    walk->asked = *question;
+    walk->backwards = false;
+    walk->next_room = 0;
+    if (!make_elements(walk, 0, 0))
+        return tn_fail_memory(error);
+    tn_status status = algebra->one ? algebra->one(question->context, 0, 0, walk->forward[0], error) : TN_OK;
+    for (walk->layer = 0; status == TN_OK && walk->layer <= walk->last; walk->layer++) {
+        walk->next_room = 0;
+        status = settle(walk, walk->forward, (uint32_t)walk->counts[walk->layer], error);
+        if (status == TN_OK)
+            status = show_layer(walk, error);
+        if (status == TN_OK && !walk->keeps)
+            drop_forward(walk, walk->layer, algebra, question->size);
+    }
+    return status;
+}
+
+tn_status tn_key_walk_backward(tn_key_walk *walk, const tn_key_question *question, tn_error *error)
+{
+    tn_status status = TN_OK;
+    walk->asked = *question;
+    walk->backwards = true;
+    for (walk->layer = walk->last + 1; status == TN_OK && walk->layer-- > 0;) {
+        uint32_t count = walk->graph->nodes(walk->graph_context, walk->layer)->count;
+        char *elements = walk->backward[walk->layer] = tn_array_new((uint64_t)count + 1, question->size);
+        if (!elements)
+            return tn_fail_memory(error);
+        for (uint32_t i = 0; i < count; i++)
+            question->algebra->zero(question->context, elements + i * question->size);
+        status = show_layer(walk, error);
+        if (status == TN_OK)
+            status = settle(walk, walk->backward, count, error);
+    }
+    return status;
+}

@@ -30,6 +30,7 @@
 #define TARTAN_AUTOMATA_WALK_H
 
 #include "runtime/automata/dfa.h"
+#include "runtime/automata/numbering.h"
 #include "runtime/base/array.h"
 
 /* What the graph shows an edge to: the state that it leads to, and what the algebra extends by (any type). */
@@ -304,6 +305,65 @@ static inline tn_status tn_walk_from(tn_layers *walk, const tn_walk_graph *graph
     tn_walk_way way = {walk, take, context, layer, place};
     tn_walk_look(walk, tn_walk_at(walk, layer + 1));
     return graph->edges(graph_context, layer, tn_walk_at(walk, layer)->states[place], tn_walk_go_on, &way, error);
+}
+
+/* ---- whole layers of keys
+ *
+ * Nodes can also be keys of 64 bits, which the graph numbers: a key's number in its layer is its place. Such a graph
+ * shows the edges from all nodes of a layer at once, in any order: many nodes can then share the work of finding what
+ * leads on from them. Words end in any layer, by edges of their own.
+ */
+typedef struct tn_key_walk tn_key_walk;
+
+typedef struct tn_key_graph {
+    tn_numbering *(*nodes)(void *context, uint32_t layer);
+    tn_status (*edges)(void *context, uint32_t layer, tn_key_walk *walk, tn_error *error); /* tn_key_walk_edge */
+    tn_status (*ends)(void *context, uint32_t layer, tn_key_walk *walk, tn_error *error);  /* tn_key_walk_end */
+} tn_key_graph;
+
+/* What is asked. Of the algebra: zero, clear, add and settle; and what an edge to the end adds: forwards to the answer,
+ * from the element at its source; backwards to that element. NULL: ends are not shown. */
+typedef struct tn_key_question {
+    const tn_walk_algebra *algebra;
+    tn_status (*end)(void *context, void *element, const tn_walk_edge *edge, tn_error *error);
+    void *context;
+    size_t size; /* of an element, in bytes; 0: edges are shown to `add`, and nodes have no elements */
+} tn_key_question;
+
+struct tn_key_walk {
+    const tn_key_graph *graph;
+    void *graph_context;
+    uint32_t last;    /* layers 0..last */
+    bool keeps;       /* elements of all layers are kept while it goes forwards */
+    char **forward;   /* [last + 1]: the elements of each layer, if there are any; owned until it is cleared */
+    char **backward;  /* the same; a question may take them, and leaves NULL */
+    size_t *counts;   /* [last + 1]: how many elements `forward` has */
+    size_t next_room; /* of those of the layer that is being met */
+    bool backwards;   /* the direction in which it goes */
+    uint32_t layer;   /* at hand */
+    tn_key_question asked;
+};
+
+/* Room for the layers; the first has a node with this key. Clear it also after a failure. */
+tn_status tn_key_walk_begin(tn_key_walk *walk, uint64_t key, tn_error *error);
+
+/* Frees all; the algebras of elements that are still there, or NULL. If there are both, they are of one size. */
+void tn_key_walk_clear(tn_key_walk *walk, const tn_walk_algebra *forward, const tn_walk_algebra *backward);
+
+/* Meets all nodes. The element of the first is one (algebra->one; NULL: as zero makes it). */
+tn_status tn_key_walk_forward(tn_key_walk *walk, const tn_key_question *question, tn_error *error);
+
+/* Over the nodes that are met already. */
+tn_status tn_key_walk_backward(tn_key_walk *walk, const tn_key_question *question, tn_error *error);
+
+/* What graphs show: an edge from a place to a key of the next layer, or to its place; to the end of a word. */
+tn_status tn_key_walk_edge(tn_key_walk *walk, uint32_t from, uint64_t key, const void *label, tn_error *error);
+tn_status tn_key_walk_edge_to(tn_key_walk *walk, uint32_t from, uint32_t to, const void *label, tn_error *error);
+tn_status tn_key_walk_end(tn_key_walk *walk, uint32_t from, const void *label, tn_error *error);
+
+static inline void *tn_key_walk_forward_of(const tn_key_walk *walk, uint32_t layer, uint32_t place, size_t size)
+{
+    return walk->forward[layer] + place * size;
 }
 
 #endif

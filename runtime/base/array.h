@@ -26,7 +26,7 @@ static inline size_t tn_size_of(size_t a, size_t b)
     return __builtin_mul_overflow(a, b, &product) || product > TN_SIZE_MOST ? TN_SIZE_MOST : product;
 }
 
-/* `count` items whose bytes the caller writes. NULL where out of memory, or where these are too many bytes to count. */
+/* `count` items whose bytes the caller writes. NULL if out of memory, or where these are too many bytes to count. */
 void *tn_array_new(uint64_t count, size_t size);
 
 /* The next capacity of an array that needs `needed` items: twice as many, and at least `first`. */

@@ -12,7 +12,7 @@ typedef struct tn_crew tn_crew;
 
 /* A crew of `threads` in all, the asking one counted (0: as many as there are processors). They are made when there is
  * work for them; where threads cannot be had, it is smaller. Work ends early once `watch` (borrowed, or NULL) says so.
- * NULL where out of memory. */
+ * NULL if out of memory. */
 tn_crew *tn_crew_new(unsigned threads, tn_watch *watch);
 void tn_crew_free(tn_crew *crew);
 

@@ -12,7 +12,17 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "runtime/base/codes.h"
+/* What diagnostics are called in code: E_... and W_..., one for each row of codes.def. */
+
+/* The value is the number: E0301 is 301, W012 is 10012. */
+typedef enum tn_code {
+    TN_CODE_NONE = 0, /* a note that stands alone, as "rule r falls back to the VM" */
+#define ERROR(NUMBER, NAME, SUMMARY) E_##NAME = NUMBER,
+#define WARNING(NUMBER, NAME, SUMMARY) W_##NAME = 10000 + NUMBER,
+#include "runtime/base/codes.def"
+#undef ERROR
+#undef WARNING
+} tn_code;
 
 typedef enum tn_status {
     TN_OK = 0,
@@ -28,9 +38,9 @@ typedef enum tn_status {
 
 typedef struct tn_error {
     tn_status status;
-    tn_code code;         /* of the diagnostic; TN_CODE_NONE where it has none */
+    tn_code code;         /* of the diagnostic; TN_CODE_NONE if it has none */
     uint32_t code_offset; /* byte of the code section that it is about, or TN_NO_OFFSET */
-    uint64_t line;        /* place in an input text, from 1; 0 where there is none */
+    uint64_t line;        /* place in an input text, from 1; 0 if there is none */
     uint32_t column;      /* first byte of the place in its line, from 1 */
     uint32_t column_end;  /* one past its last byte */
     char message[480];    /* one sentence without a final full stop */
@@ -49,5 +59,15 @@ void tn_error_help(tn_error *error, const char *format, ...) __attribute__((form
 
 /* Adds a place in an input text to an error already filled. */
 void tn_error_place(tn_error *error, uint64_t line, size_t column, size_t column_end);
+
+/* The parts that a build may leave out, and the error of whoever asks for one that is not there.
+ *
+ * A folder that is a part has a file absent.c, which is built in place of the others where the part is left out
+ * (cmake/folder.cmake): its functions fail with this error. */
+
+typedef enum tn_optional_part { TN_WITH_DRAW, TN_WITH_MESH, TN_WITH_STORE } tn_optional_part;
+
+/* TN_INVALID (E0907), naming the part, what wants it ("drawing pictures"), and how to get it. */
+tn_status tn_part_absent(tn_optional_part part, const char *wanted, tn_error *error);
 
 #endif

@@ -40,7 +40,7 @@ typedef struct tn_output {
 } tn_output;
 
 /* Opens a temporary file in the folder of `path`: one without a name, where the system has that, so that nothing is
- * left of it when the program is killed. E0902 where that cannot be written. */
+ * left of it when the program is killed. E0902 if that cannot be written. */
 tn_status tn_output_open(const char *path, tn_output *output, tn_error *error);
 
 /* The same; `written`, or NULL, sees what is written. It is copied, and its context outlives the output. */
@@ -70,7 +70,7 @@ static inline tn_file_state tn_file_state_of(int file)
     return (tn_file_state){true, known.st_size, known.st_mtim};
 }
 
-/* When it has ended: TN_IO (E0901) where the file is not as it was. */
+/* When it has ended: TN_IO (E0901) if the file is not as it was. */
 static inline tn_status tn_file_state_same(const tn_file_state *before, int file, const char *path, tn_error *error)
 {
     tn_file_state now = tn_file_state_of(file);
@@ -82,7 +82,19 @@ static inline tn_status tn_file_state_same(const tn_file_state *before, int file
     return TN_IO;
 }
 
-/* A path that a file names lies relative to that file. The caller frees it; NULL where out of memory. */
+/* A path that a file names lies relative to that file. The caller frees it; NULL if out of memory. */
 char *tn_file_beside(const char *file, const char *path);
+
+/* What is said of a file that could not be read or written: why, and what to do about it, in plain words. */
+
+/* E0901, TN_IO. `reason` is the errno of what failed. */
+tn_status tn_cannot_read(const char *path, int reason, tn_error *error);
+
+/* E0902, TN_IO; E0903 if the reader of a pipe went away; TN_MEMORY if memory was what lacked. A `reason` of 0 is
+ * an input or output error. */
+tn_status tn_cannot_write(const char *path, int reason, tn_error *error);
+
+/* E0902, TN_IO: a folder that could not be made. */
+tn_status tn_cannot_make(const char *path, int reason, tn_error *error);
 
 #endif

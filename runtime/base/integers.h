@@ -8,7 +8,7 @@
 
 #include "runtime/base/buffer.h"
 
-/* So many zeros; NULL where out of memory. tn_integers_free frees them. */
+/* So many zeros; NULL if out of memory. tn_integers_free frees them. */
 static inline mpz_t *tn_integers_new(size_t count)
 {
     mpz_t *items = calloc(count + 1, sizeof *items);
@@ -39,7 +39,7 @@ static inline size_t tn_decimal_digits(const mpz_t number)
     return size;
 }
 
-/* Appends the number's decimal digits. False where out of memory. */
+/* Appends the number's decimal digits. False if out of memory. */
 static inline bool tn_buffer_integer(tn_buffer *buffer, const mpz_t number)
 {
     if (!tn_buffer_reserve(buffer, mpz_sizeinbase(number, 10) + 1)) /* and the sign */

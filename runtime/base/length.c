@@ -1,8 +1,11 @@
-/* Reads lengths with units, exactly. */
+/* Reads and writes lengths: with feet and inches, and in the unit that an author uses. */
 #include "runtime/base/length.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
+
+/* ==== reads lengths with units, exactly */
 
 /* Reading goes by a cursor over the text; a part that does not fit leaves the cursor where it was. */
 typedef struct tn_scan {
@@ -294,4 +297,44 @@ void tn_length_write(int64_t nanometres, char *text, size_t size)
     if (digits[length - 1] == '.')
         digits[length - 1] = '\0';
     snprintf(text, size, "%s%smm", negative ? "-" : "", digits);
+}
+
+/* ==== writes lengths in the unit that an author uses */
+
+tn_length_style tn_length_style_of(const char *spelling)
+{
+    size_t length = strlen(spelling);
+    if (length < 2 || spelling[length - 1] != 'm')
+        return TN_STYLE_FEET;
+    return spelling[length - 2] == 'm'   ? TN_STYLE_MILLIMETRES
+           : spelling[length - 2] == 'c' ? TN_STYLE_CENTIMETRES
+                                         : TN_STYLE_METRES;
+}
+
+/* A decimal number of `unit` nanometres, without trailing zeros. */
+static void write_decimal(int64_t nanometres, int64_t unit, const char *name, char *text, size_t size)
+{
+    char fraction[24];
+    int digits = snprintf(fraction, sizeof fraction, "%" PRId64, unit + nanometres % unit) - 1;
+    while (digits > 0 && fraction[digits] == '0')
+        digits--;
+    snprintf(text, size, "%" PRId64 "%s%.*s%s", nanometres / unit, digits ? "." : "", digits, fraction + 1, name);
+}
+
+void tn_length_write_style(int64_t nanometres, tn_length_style style, char *text, size_t size)
+{
+    switch (style) {
+    case TN_STYLE_FEET:
+        tn_length_write(nanometres, text, size);
+        break;
+    case TN_STYLE_METRES:
+        write_decimal(nanometres, INT64_C(1000000000), "m", text, size);
+        break;
+    case TN_STYLE_CENTIMETRES:
+        write_decimal(nanometres, 10000000, "cm", text, size);
+        break;
+    case TN_STYLE_MILLIMETRES:
+        write_decimal(nanometres, 1000000, "mm", text, size);
+        break;
+    }
 }

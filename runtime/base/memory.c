@@ -46,7 +46,7 @@ static uint64_t less(uint64_t whole, uint64_t part)
 
 /* ---- files of a number, and of names with numbers */
 
-/* The number that follows `name` at the start of a line; an empty name: that the file begins with. False where there is
+/* The number that follows `name` at the start of a line; an empty name: that the file begins with. False if there is
  * none, as in a limit that is "max". */
 static bool read_number(const char *path, const char *name, uint64_t *number)
 {

@@ -8,11 +8,11 @@
 
 #define TN_MEMORY_UNKNOWN UINT64_MAX
 
-/* Bytes that the process holds and nobody shares with it: no code, no mapped files. 0 where the system does not say. */
+/* Bytes that the process holds and nobody shares with it: no code, no mapped files. 0 if the system does not say. */
 uint64_t tn_memory_used(void);
 
 /* Bytes that the process could take now: the least of what the machine has free, of what each control group that it is
- * in leaves (versions 1 and 2), and of its own limits (ulimit -v, -d). TN_MEMORY_UNKNOWN where the system does not say.
+ * in leaves (versions 1 and 2), and of its own limits (ulimit -v, -d). TN_MEMORY_UNKNOWN if the system does not say.
  * root: "", or a folder that holds another /proc and /sys, for tests. */
 uint64_t tn_memory_available(const char *root);
 

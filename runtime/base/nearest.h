@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 /* The candidate nearest to `word` by edit distance (insert, delete, replace, swap neighbours; case does not count), the
- * first of several; NULL where none is near enough to suggest. */
+ * first of several; NULL if none is near enough to suggest. */
 const char *tn_nearest(const char *word, const char *const *candidates, size_t count);
 
 /* "a, b and c" into `text`, cut off where it has no room. */

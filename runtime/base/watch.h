@@ -12,6 +12,7 @@
 
 #include <pthread.h>
 #include <stdatomic.h>
+#include <time.h>
 
 #include "runtime/base/error.h"
 
@@ -54,11 +55,21 @@ tn_status tn_fail_stopped(const tn_watch *watch, tn_error *error);
 /* Compares what the process holds with the limit; past it, the watch is full and work is stopped. */
 void tn_watch_measure(tn_watch *watch);
 
-/* For before a piece of work that needs so many bytes more: TN_LIMIT (E0841) where they pass the limit, TN_MEMORY where
+/* For before a piece of work that needs so many bytes more: TN_LIMIT (E0841) if they pass the limit, TN_MEMORY where
  * the system does not have them. `what` begins a sentence. The watch may be NULL. */
 tn_status tn_watch_room(const tn_watch *watch, uint64_t bytes, const char *what, tn_error *error);
 
 /* Says how far the work is; on any other thread than the watch's own it says nothing. NULL is fine. */
 void tn_watch_tell(tn_watch *watch, double done, double total);
+
+/* Time that passes, for pauses and progress; never for results. */
+
+/* Seconds since some moment before the program began; nobody sets this clock back. */
+static inline double tn_seconds(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
+}
 
 #endif

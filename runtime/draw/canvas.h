@@ -21,7 +21,7 @@ typedef struct tn_canvas_options {
     const char *title;    /* for the file's metadata; or NULL */
 } tn_canvas_options;
 
-/* Starts a picture. E0902 where the file cannot be written, E0820 where its page or its PNG would be too large, E0907
+/* Starts a picture. E0902 if the file cannot be written, E0820 if its page or its PNG would be too large, E0907
  * for a PNG or a PDF in a build without the part `draw`. */
 tn_status tn_canvas_new(const char *path, tn_canvas_format format, const tn_canvas_options *options, tn_canvas **canvas,
                         tn_error *error);
@@ -43,7 +43,7 @@ tn_status tn_canvas_page(tn_canvas *canvas, double width, double height, tn_erro
 /* Is the drawing given up? Then what is left need not be drawn: committing fails with TN_STOPPED. */
 bool tn_canvas_stopped(const tn_canvas *canvas);
 
-/* Writes the file. E0902 where that fails; the target is then as it was. */
+/* Writes the file. E0902 if that fails; the target is then as it was. */
 tn_status tn_canvas_commit(tn_canvas *canvas, tn_error *error);
 
 void tn_canvas_free(tn_canvas *canvas);

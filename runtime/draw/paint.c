@@ -8,7 +8,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/draw/device/lettering.h"
-#include "runtime/numeric/numeric.h"
+#include "runtime/math/elementary.h"
 
 #define WHOLE 6.283185307179586
 

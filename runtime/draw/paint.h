@@ -18,7 +18,7 @@ typedef struct tn_paint tn_paint;
 tn_paint *tn_paint_new(tn_device *device);
 void tn_paint_free(tn_paint *paint);
 
-/* Ends the picture. TN_IO where it could not be written, which the stream's owner may explain better; TN_MEMORY. */
+/* Ends the picture. TN_IO if it could not be written, which the stream's owner may explain better; TN_MEMORY. */
 tn_status tn_paint_finish(tn_paint *paint, tn_watch *watch, tn_error *error);
 
 /* Ends the page and begins another, white, with a state as new. TN_INTERNAL if the device has no pages. */

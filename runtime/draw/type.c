@@ -13,7 +13,7 @@ enum { TEXT_ROOM = 1024, PARAGRAPH_ROOM = 8192 };
 
 #define ELLIPSIS "\xe2\x80\xa6"
 
-/* Copies what can be shown, what is hidden as escapes: a device wants UTF-8. false where there is no room for all of
+/* Copies what can be shown, what is hidden as escapes: a device wants UTF-8. false if there is no room for all of
  * it. */
 static bool clean_into(const char *text, char *out, size_t room)
 {

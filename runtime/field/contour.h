@@ -42,7 +42,7 @@ typedef struct tn_contour {
     double seconds[3];           /* that signs, vertices and triangles took */
 } tn_contour;
 
-/* Clear the contour in any case. TN_LIMIT (E1414, E1415) where it passes a limit; TN_MEMORY; with `between`, TN_INVALID
+/* Clear the contour in any case. TN_LIMIT (E1414, E1415) if it passes a limit; TN_MEMORY; with `between`, TN_INVALID
  * (E1417) where there is a form, but no sample of it. */
 tn_status tn_contour_new(const tn_field *field, const tn_field_grid *grid, const tn_contour_options *options,
                          tn_contour *contour, tn_error *error);

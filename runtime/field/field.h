@@ -7,6 +7,8 @@
 #define TARTAN_FIELD_FIELD_H
 
 #include "runtime/geometry/boundary_mesh.h"
+#include "runtime/geometry/mesh.h"
+#include "runtime/module/module.h"
 #include "runtime/number/tape.h"
 
 /* The box, and its samples along each axis. */
@@ -57,5 +59,42 @@ void tn_field_runner_clear(tn_field_runner *runner);
  * the places. */
 void tn_field_prepare(tn_field_runner *runner);
 const double *tn_field_run(tn_field_runner *runner);
+
+/* The meshes that a module's fields measure distances from. */
+
+typedef struct tn_field_meshes {
+    tn_boundary_mesh **items; /* owned: one for each DISTANCE_MESH record */
+    size_t count;
+} tn_field_meshes;
+
+/* Reads them all; opened: the path of the file or module, beside which they lie. TN_INVALID or TN_IO (E1412) if one
+ * is missing or broken. Clear the meshes in any case. */
+tn_status tn_field_meshes_read(const tn_module *module, const tn_mesh_reader *reader, const char *opened,
+                               tn_field_meshes *meshes, tn_error *error);
+void tn_field_meshes_clear(tn_field_meshes *meshes);
+
+/* Normals of a field's mesh, by differentiation. */
+
+/* The unit gradient at each vertex, [vertex_count][3]. Where the vertex is not on the surface (where the box closes the
+ * form, and at jumps), or the gradient has no value or is below 1e-9 of the median, the mean of the faces' normals.
+ * spacing: of the grid. The caller frees them. TN_MEMORY. */
+tn_status tn_field_normals(const tn_field *field, const tn_mesh *mesh, double spacing, double **normals,
+                           tn_error *error);
+
+/* The gradient at a vertex, and its size: 0 if it says nothing about the surface. registers: room for four times
+ * field->samples.register_count. */
+double tn_field_slope(const tn_field *field, const double *vertex, double spacing, double *registers,
+                      double gradient[3]);
+
+/* The volume inside a field, between two numbers that intervals prove. */
+
+typedef struct tn_field_volume {
+    double low, high;
+} tn_field_volume;
+
+/* The box is halved along each axis until a block is proven to be inside or outside, or is as small as a cell of the
+ * grid; what is still open counts for `high` alone. Sums are rounded outward. TN_OK or TN_MEMORY. */
+tn_status tn_field_volume_bounds(const tn_field *field, const tn_field_grid *grid, tn_field_volume *volume,
+                                 tn_error *error);
 
 #endif

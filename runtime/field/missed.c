@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/field/contour_parts.h"
+#include "runtime/field/contouring.h"
 
 /* How often a layer of blocks may ask for bounds: beside large grids about as long as sampling takes. Where nothing at
  * all was found, more: then it is to be proven that there is nothing. */
@@ -62,7 +62,7 @@ typedef struct pieces {
     double inside[3]; /* a place, once one is found */
 } pieces;
 
-/* Adds an eighth of a piece, unless it is outside. True where some of it is inside. */
+/* Adds an eighth of a piece, unless it is outside. True if some of it is inside. */
 static bool add_piece(search *s, pieces *all, const piece *of, unsigned eighth)
 {
     piece p;

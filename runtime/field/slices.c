@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/field/contour_parts.h"
+#include "runtime/field/contouring.h"
 
 #define NONE UINT32_MAX
 

@@ -54,7 +54,7 @@ typedef struct tn_setting_row {
 extern const tn_setting_row tn_setting_rows[TN_SETTING_COUNT];
 
 typedef struct tn_setting_value {
-    uint32_t written; /* how many values were: 0 where the default stands; a number after a word counts */
+    uint32_t written; /* how many values were: 0 if the default stands; a number after a word counts */
     uint32_t choice;
     double first, second; /* a number, the ends of a range; second: the number after a word */
     const char *text;     /* or NULL; borrowed */
@@ -79,18 +79,18 @@ typedef struct tn_evolution_study {
 /* Which genomes a study breeds. */
 tn_setting_use tn_evolution_study_use(const tn_evolution_study *study);
 
-/* Adds one of those that may be there more than once; false where there are too many. */
+/* Adds one of those that may be there more than once; false if there are too many. */
 bool tn_evolution_study_add(tn_evolution_study *study, tn_setting setting, const tn_setting_value *value);
 
 void tn_evolution_study_default(tn_evolution_study *study);
 
-/* The setting that a text of `size` bytes names, case aside; TN_SETTING_COUNT where it is none. */
+/* The setting that a text of `size` bytes names, case aside; TN_SETTING_COUNT if it is none. */
 tn_setting tn_setting_named(const char *text, size_t size);
 
 /* Is this value one that the setting's row allows? */
 bool tn_setting_fits(tn_setting setting, const tn_setting_value *value);
 
-/* The index of a word among a row's choices, case aside; UINT32_MAX where it is none. */
+/* The index of a word among a row's choices, case aside; UINT32_MAX if it is none. */
 uint32_t tn_setting_choice(const tn_setting_row *row, const char *word);
 uint32_t tn_setting_choice_count(const tn_setting_row *row);
 
@@ -116,7 +116,7 @@ typedef struct tn_setting_fault {
 /* Fills `faults` and returns how many there are. */
 size_t tn_evolution_study_faults(const tn_evolution_study *study, tn_setting_fault faults[TN_SETTING_FAULTS_MAX]);
 
-/* The study that a verified module holds; its texts are the module's. False where it holds none. */
+/* The study that a verified module holds; its texts are the module's. False if it holds none. */
 bool tn_evolution_study_of(const tn_module *module, tn_evolution_study *study);
 
 #endif

@@ -1,12 +1,16 @@
-/* Answers what is inside of a boundary mesh and what meets it, by a tree of its triangles. */
+/* Answers what is inside of a boundary mesh and what meets it, by a tree of its triangles; and reads the meshes that
+ * rule files name. */
 #include "runtime/geometry/boundary_mesh.h"
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 #include <xxhash.h>
 
 #include "runtime/geometry/select_nth.h"
-#include "runtime/numeric/numeric.h"
+#include "runtime/math/elementary.h"
+
+/* ==== answers what is inside of a boundary mesh and what meets it, by a tree of its triangles */
 
 #define LEAF_TRIANGLES 4u
 #define TREE_DEPTH_MAX 64
@@ -314,7 +318,7 @@ static void consider(const tn_boundary_mesh *mesh, uint32_t triangle, tn_vector 
         *search = (nearest_search){p, d2, triangle, inner};
 }
 
-/* The angle that a triangle fills at a point of it; at one of its edges half a turn, 0 where the point is none of its
+/* The angle that a triangle fills at a point of it; at one of its edges half a turn, 0 if the point is none of its
  * own. */
 static double angle_at(const tn_vector c[3], tn_vector p, double touch)
 {
@@ -514,4 +518,53 @@ const tn_vector *tn_boundary_mesh_corners(const tn_boundary_mesh *mesh, size_t *
 uint64_t tn_boundary_mesh_hash(const tn_boundary_mesh *mesh, uint64_t seed)
 {
     return XXH3_64bits_withSeed(mesh->corner, 3 * (size_t)mesh->count * sizeof *mesh->corner, seed);
+}
+
+/* ==== finds and reads the meshes that rule files name */
+
+/* name, told from the folder of a file; the caller frees it. */
+static char *beside(const char *file, const char *name)
+{
+    const char *slash = name[0] == '/' ? NULL : strrchr(file, '/');
+    size_t folder = slash ? (size_t)(slash - file) + 1 : 0, size = strlen(name) + 1;
+    char *path = malloc(folder + size);
+    if (path) {
+        memcpy(path, file, folder);
+        memcpy(path + folder, name, size);
+    }
+    return path;
+}
+
+static tn_status read_mesh(const tn_mesh_reader *reader, const char *path, tn_boundary_mesh **result, tn_error *error)
+{
+    tn_mesh mesh;
+    tn_status status = reader->read(reader->context, path, &mesh, error);
+    if (status != TN_OK)
+        return status;
+    status = tn_mesh_triangulate(&mesh, error);
+    if (status == TN_OK)
+        status = tn_boundary_mesh_new(mesh.positions, mesh.vertex_count, mesh.corners, mesh.face_count, result, error);
+    tn_mesh_clear(&mesh);
+    return status;
+}
+
+tn_status tn_boundary_mesh_find(const tn_mesh_reader *reader, const char *opened, const char *source, const char *name,
+                                const char *what, const char *rules, tn_boundary_mesh **result, tn_error *error)
+{
+    char *near = beside(opened, name), *once = beside(source, name);
+    tn_status status = near && once ? TN_OK : tn_fail_memory(error);
+    if (status == TN_OK && access(near, F_OK) == 0) {
+        status = read_mesh(reader, near, result, error);
+    } else if (status == TN_OK && access(once, F_OK) == 0) {
+        status = read_mesh(reader, once, result, error);
+    } else if (status == TN_OK) {
+        status = tn_fail(error, TN_IO, E_CANNOT_READ, "there is no mesh %.200s", near);
+        if (strcmp(near, once) == 0)
+            tn_error_help(error, "a %s's path starts at the folder of the %s that names it", what, rules);
+        else
+            tn_error_help(error, "put it there; where the %s was compiled it was %.200s", rules, once);
+    }
+    free(near);
+    free(once);
+    return status;
 }

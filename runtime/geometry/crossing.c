@@ -23,7 +23,7 @@ typedef struct entry {
 
 /* ---- two triangles */
 
-/* The side of the plane through a, b and c on which d lies: 1 or -1, and 0 where that is not certain. */
+/* The side of the plane through a, b and c on which d lies: 1 or -1, and 0 if that is not certain. */
 static int side_of(tn_vector a, tn_vector b, tn_vector c, tn_vector d)
 {
     tn_vector p = tn_sub(a, d), q = tn_sub(b, d), r = tn_sub(c, d);

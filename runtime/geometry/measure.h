@@ -24,7 +24,7 @@ typedef struct tn_thickness {
     double hundredth; /* a hundredth of the surface, by area, is thinner */
 } tn_thickness;
 
-/* Of a closed mesh of triangles, counter-clockwise from outside. Both are 0 where it has no triangles. TN_OK or
+/* Of a closed mesh of triangles, counter-clockwise from outside. Both are 0 if it has no triangles. TN_OK or
  * TN_MEMORY. */
 tn_status tn_mesh_thickness(const tn_mesh *mesh, tn_thickness *thickness, tn_error *error);
 

@@ -5,7 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/hash_table.h"
 #include "runtime/base/watch.h"
+
+/* ==== keeps meshes as arrays */
+
 tn_status tn_mesh_check(const tn_mesh *mesh, tn_error *error)
 {
     return tn_watch_check(mesh->watch, error);
@@ -124,34 +128,33 @@ static uint64_t hash_place(const double *p)
     return hash;
 }
 
+typedef struct wanted_place {
+    const tn_mesh *mesh;
+    const double *at;
+} wanted_place;
+
+static bool is_at(const void *context, uint32_t vertex)
+{
+    const wanted_place *w = context;
+    const double *p = w->at, *q = place(w->mesh, vertex);
+    return p[0] == q[0] && p[1] == q[1] && p[2] == q[2];
+}
+
 /* For each vertex the first one at its place. */
 static tn_status find_first(const tn_mesh *mesh, uint32_t *first, tn_error *error)
 {
-    size_t capacity = 64;
-    while (capacity < 2 * mesh->vertex_count)
-        capacity *= 2;
-    uint32_t *slots = malloc(capacity * sizeof *slots);
-    if (!slots)
-        return tn_fail_memory(error);
-    memset(slots, 0xff, capacity * sizeof *slots);
-    for (uint32_t v = 0; v < mesh->vertex_count; v++) {
-        const double *p = place(mesh, v);
-        size_t i = (size_t)hash_place(p) & (capacity - 1);
-        while (slots[i] != UINT32_MAX) {
-            const double *q = place(mesh, slots[i]);
-            if (p[0] == q[0] && p[1] == q[1] && p[2] == q[2])
-                break;
-            i = (i + 1) & (capacity - 1);
-        }
-        if (slots[i] == UINT32_MAX)
-            slots[i] = v;
-        first[v] = slots[i];
+    tn_hash_table index = {0};
+    tn_status status = tn_hash_reserve(&index, mesh->vertex_count, error);
+    for (uint32_t v = 0; v < mesh->vertex_count && status == TN_OK; v++) {
+        wanted_place wanted = {mesh, place(mesh, v)};
+        first[v] = v;
+        status = tn_hash_enter(&index, hash_place(wanted.at), is_at, &wanted, &first[v], error);
     }
-    free(slots);
-    return TN_OK;
+    tn_hash_clear(&index);
+    return status;
 }
 
-/* Without corners that repeat the one before; false where fewer than three remain. */
+/* Without corners that repeat the one before; false if fewer than three remain. */
 static bool weld_face(tn_mesh *mesh, uint32_t first, uint32_t end, const uint32_t *number, uint32_t *at)
 {
     uint32_t begin = *at;
@@ -217,4 +220,69 @@ void tn_group_colour(uint32_t group, unsigned char rgb[3])
         uint32_t round = group / count % 3;
         rgb[k] = (unsigned char)(round == 0 ? c[k] : round == 1 ? c[k] / 2 : (c[k] + 255) / 2);
     }
+}
+
+/* ==== moves vertices that share a place apart, for files that tell vertices by their places only */
+
+typedef struct placed {
+    double at[3];
+    uint32_t vertex;
+} placed;
+
+static int by_place(const void *a, const void *b)
+{
+    const placed *p = a, *q = b;
+    for (int k = 0; k < 3; k++)
+        if (p->at[k] != q->at[k])
+            return p->at[k] < q->at[k] ? -1 : 1;
+    return p->vertex < q->vertex ? -1 : p->vertex > q->vertex;
+}
+
+static bool same_place(const placed *p, const placed *q)
+{
+    return p->at[0] == q->at[0] && p->at[1] == q->at[1] && p->at[2] == q->at[2];
+}
+
+static double diagonal_of(const tn_mesh *mesh)
+{
+    double square = 0;
+    for (size_t k = 0; k < 3; k++) {
+        double low = INFINITY, high = -INFINITY;
+        for (size_t v = 0; v < mesh->vertex_count; v++) {
+            low = fmin(low, mesh->positions[3 * v + k]);
+            high = fmax(high, mesh->positions[3 * v + k]);
+        }
+        square += mesh->vertex_count ? (high - low) * (high - low) : 0;
+    }
+    return sqrt(square);
+}
+
+tn_status tn_mesh_pull_apart(tn_mesh *mesh, double share, size_t *moved, tn_error *error)
+{
+    size_t count = mesh->vertex_count;
+    double *normals, by = share * diagonal_of(mesh);
+    placed *all = malloc((count + 1) * sizeof *all);
+    *moved = 0;
+    if (!all)
+        return tn_fail_memory(error);
+    tn_status status = tn_mesh_normals(mesh, &normals, error);
+    if (status != TN_OK) {
+        free(all);
+        return status;
+    }
+    for (size_t v = 0; v < count; v++) {
+        memcpy(all[v].at, mesh->positions + 3 * v, sizeof all[v].at);
+        all[v].vertex = (uint32_t)v;
+    }
+    qsort(all, count, sizeof *all, by_place);
+    for (size_t i = 0; i < count; i++) {
+        if (!(i > 0 && same_place(&all[i], &all[i - 1])) && !(i + 1 < count && same_place(&all[i], &all[i + 1])))
+            continue;
+        for (size_t k = 0; k < 3; k++)
+            mesh->positions[3 * (size_t)all[i].vertex + k] -= by * normals[3 * (size_t)all[i].vertex + k];
+        ++*moved;
+    }
+    free(normals);
+    free(all);
+    return TN_OK;
 }

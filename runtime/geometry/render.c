@@ -1,8 +1,49 @@
-/* Paints triangles into pixels with a depth buffer. Each pixel is four points, so that outlines are smooth. */
+/* Places cameras, lights surfaces, and paints triangles into pixels. */
 #include "runtime/geometry/render.h"
 
 #include <math.h>
 #include <stdlib.h>
+
+#include "runtime/math/elementary.h"
+
+/* ---- places cameras, and lights surfaces */
+
+tn_camera tn_camera_default(void)
+{
+    return (tn_camera){-60, 30, 480};
+}
+
+tn_eye tn_camera_eye(const tn_camera *camera)
+{
+    double ca = tn_cos_degrees(camera->azimuth), sa = tn_sin_degrees(camera->azimuth);
+    double ce = tn_cos_degrees(camera->elevation), se = tn_sin_degrees(camera->elevation);
+    return (tn_eye){{-sa, ca, 0}, {-se * ca, -se * sa, ce}, {ce * ca, ce * sa, se}};
+}
+
+tn_vector tn_eye_sees(const tn_eye *eye, tn_vector place)
+{
+    return (tn_vector){tn_dot(place, eye->right), tn_dot(place, eye->up), tn_dot(place, eye->towards)};
+}
+
+static double light_of_lamp(const tn_eye *eye, tn_vector normal)
+{
+    tn_vector lamp = tn_normalised(tn_add(tn_add(eye->towards, tn_scale(eye->up, 0.9)), tn_scale(eye->right, -0.6)));
+    return 0.35 + 0.65 * fmax(0, tn_dot(normal, lamp));
+}
+
+double tn_eye_light(const tn_eye *eye, tn_vector normal)
+{
+    return light_of_lamp(eye, tn_dot(normal, eye->towards) < 0 ? tn_scale(normal, -1) : normal);
+}
+
+/* The same for smooth forms, which turn away from the lamp: some of the light comes from the eye, and only the side
+ * that the normal points to is lit. */
+static double eye_light_around(const tn_eye *eye, tn_vector normal)
+{
+    return 0.7 * light_of_lamp(eye, normal) + 0.3 * fabs(tn_dot(normal, eye->towards));
+}
+
+/* ---- paints triangles into pixels with a depth buffer. Each pixel is four points, so that outlines are smooth */
 
 #define FINE 2u             /* points along a pixel's side */
 #define SMOOTH_COSINE 0.766 /* of 40 degrees */
@@ -19,7 +60,8 @@ typedef struct corner {
     double x, y, depth, light;
 } corner;
 
-void tn_light_colour(double light, double rgb[3])
+/* The colour of a surface by its light: 0 to 1 each. */
+static void light_colour(double light, double rgb[3])
 {
     rgb[0] = 0.98 * light;
     rgb[1] = 0.97 * light;
@@ -106,7 +148,7 @@ static void look(const tn_mesh *mesh, const double *normals, const tn_eye *eye, 
     for (size_t v = 0; v < mesh->vertex_count; v++) {
         tn_vector seen = tn_eye_sees(eye, tn_vector_at(mesh->positions + 3 * v));
         corners[v] = (corner){(seen.x - frame->left) * points, (frame->top - seen.y) * points, seen.z,
-                              tn_eye_light_around(eye, tn_vector_at(normals + 3 * v))};
+                              eye_light_around(eye, tn_vector_at(normals + 3 * v))};
     }
 }
 
@@ -160,7 +202,7 @@ static void paint(const tn_mesh *mesh, const double *normals, const tn_eye *eye,
             tn_vector normal = edge ? one.face : one.normals[k];
             c[k] = seen[corners[k]];
             if (edge || one.behind)
-                c[k].light = tn_eye_light_around(eye, one.behind ? tn_scale(normal, -1) : normal);
+                c[k].light = eye_light_around(eye, one.behind ? tn_scale(normal, -1) : normal);
         }
         fill_triangle(to, c);
     }
@@ -180,7 +222,7 @@ static uint32_t pixel_of(const buffer *from, uint32_t x, uint32_t y)
     }
     if (covered == 0)
         return 0;
-    tn_light_colour(light / (FINE * FINE), rgb);
+    light_colour(light / (FINE * FINE), rgb);
     uint32_t pixel = (uint32_t)(255.0 * covered / (FINE * FINE) + 0.5) << 24;
     for (int i = 0; i < 3; i++)
         pixel |= (uint32_t)(255 * rgb[i] + 0.5) << (16 - 8 * i);

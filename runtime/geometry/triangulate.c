@@ -10,9 +10,9 @@
 #include <stdlib.h>
 
 #include "runtime/base/watch.h"
+#include "runtime/geometry/bit_tree.h"
 #include "runtime/geometry/corner_tree.h"
 #include "runtime/geometry/mesh.h"
-#include "runtime/numeric/bit_tree.h"
 
 #define FEW 24u /* corners of a face: up to here all that turn outwards are looked at */
 
@@ -110,7 +110,7 @@ static bool is_ear(const ring *r, uint32_t b)
     return true;
 }
 
-/* The next corner from one on, round the face, that may be an ear; TN_BIT_TREE_NONE where none may. */
+/* The next corner from one on, round the face, that may be an ear; TN_BIT_TREE_NONE if none may. */
 static uint32_t next_maybe(const ring *r, uint32_t from)
 {
     uint32_t next = tn_bit_tree_next(&r->maybe, from);
@@ -162,7 +162,7 @@ static void cut_off(ring *r, uint32_t corner)
     look_again(r, c);
 }
 
-/* False where the work is to end before it is done. */
+/* False if the work is to end before it is done. */
 static bool cut_face(ring *r, const uint32_t *corners, uint32_t *out, tn_watch *watch)
 {
     uint32_t at = 0;

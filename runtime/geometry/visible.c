@@ -5,8 +5,7 @@
 #include <stdlib.h>
 
 #include "runtime/base/array.h"
-#include "runtime/geometry/crease.h"
-#include "runtime/geometry/twin.h"
+#include "runtime/geometry/edges.h"
 
 /* A triangle that faces the eye, before it. */
 typedef struct screen {
@@ -39,7 +38,7 @@ static int by_low(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* False where it looks away from the eye or is seen as a line. */
+/* False if it looks away from the eye or is seen as a line. */
 static bool make_screen(const looking *l, size_t face, screen *s)
 {
     for (int i = 0; i < 3; i++)

@@ -6,8 +6,8 @@
 #ifndef TARTAN_GEOMETRY_VISIBLE_H
 #define TARTAN_GEOMETRY_VISIBLE_H
 
-#include "runtime/geometry/camera.h"
 #include "runtime/geometry/mesh.h"
+#include "runtime/geometry/render.h"
 
 /* From the eye: to the right, up, and towards it. */
 typedef struct tn_seen_line {

@@ -37,7 +37,7 @@ static bool is_first(const double *a, const double *b)
     return a[1] != b[1] ? a[1] < b[1] : a[2] < b[2];
 }
 
-/* On which side of the one from a to b the line is: the sign of *amount, which may be 0 where a moved line's is not. */
+/* On which side of the one from a to b the line is: the sign of *amount, which may be 0 if a moved line's is not. */
 static int side_of(const double *a, const double *b, const double line[2], double *amount)
 {
     bool turned = !is_first(a, b);

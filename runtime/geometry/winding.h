@@ -14,7 +14,7 @@ typedef struct tn_mesh_grid {
 
 /* Sets bit (k * count[1] + j) * count[0] + i of `bits` for each such cell; the bits are 0 before. The mesh has
  * triangles only, and is closed (tn_mesh_opening); size[0] is above 0. TN_MEMORY, TN_STOPPED, or TN_LIMIT (no code)
- * where lines along the first axis meet more than 100,000,000 triangles. */
+ * if lines along the first axis meet more than 100,000,000 triangles. */
 tn_status tn_mesh_fill_grid(const tn_mesh *mesh, const tn_mesh_grid *grid, uint64_t *bits, tn_error *error);
 
 /* Edges that have not as many faces on one side as on the other: *count of them, and the ends of the first, in the

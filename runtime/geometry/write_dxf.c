@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "runtime/base/watch.h"
-#include "runtime/geometry/crease.h"
+#include "runtime/geometry/edges.h"
 #include "runtime/geometry/write.h"
 #include "runtime/geometry/write_text.h"
 

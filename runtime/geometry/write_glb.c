@@ -6,7 +6,7 @@
 #include "runtime/base/json.h"
 #include "runtime/base/watch.h"
 #include "runtime/geometry/write.h"
-#include "runtime/numeric/numeric.h"
+#include "runtime/math/elementary.h"
 
 /* y up: x, z, -y. */
 static void turned(const double *p, double scale, float q[3])

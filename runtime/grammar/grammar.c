@@ -12,7 +12,7 @@ typedef struct decoder {
     const tn_module *module;
     const tn_grammar_record *record;
     tn_grammar *grammar;
-    uint32_t *terminal_of; /* by string offset: index of its terminal + 1; 0 where it has none */
+    uint32_t *terminal_of; /* by string offset: index of its terminal + 1; 0 if it has none */
 } decoder;
 
 static uint32_t word(tn_word_op op, uint32_t argument)

@@ -77,8 +77,8 @@ typedef struct tn_grammar {
     uint64_t hash;    /* of the module */
 } tn_grammar;
 
-/* Decodes grammar `index` of a verified module. On success the caller owns *grammar. TN_INVALID where the module has
- * none; TN_LIMIT where it has more than TN_WORD_MAX words, rules or terminals. */
+/* Decodes grammar `index` of a verified module. On success the caller owns *grammar. TN_INVALID if the module has
+ * none; TN_LIMIT if it has more than TN_WORD_MAX words, rules or terminals. */
 tn_status tn_grammar_new(const tn_module *module, size_t index, tn_grammar **grammar, tn_error *error);
 void tn_grammar_free(tn_grammar *grammar);
 

@@ -6,8 +6,8 @@
 #include <xxhash.h>
 
 #include "runtime/growth/join/decide.h"
-#include "runtime/growth/pass/interpret.h"
-#include "runtime/numeric/numeric.h"
+#include "runtime/growth/pass/pass.h"
+#include "runtime/math/elementary.h"
 
 #define SMALL 4096u /* faces, up to which keeping their order costs less than it may save */
 

@@ -16,7 +16,7 @@ typedef struct tn_measuring {
  *   volume                 between the surface, cut into triangles about the middles of its faces, and the level of its
  *                          lowest vertex
  *   planarity              mean over faces of the largest distance of a corner from the face's plane, over the face's
- *                          size, twice the largest distance of a corner from the middle; 0 where all are plane
+ *                          size, twice the largest distance of a corner from the middle; 0 if all are plane
  *   worst-planarity        the largest of these
  *   edge-spread            standard deviation of the lengths of edges, over their mean
  *   smallest-angle         between two sides of a face at their corner, in degrees
@@ -25,7 +25,7 @@ typedef struct tn_measuring {
  *   crossed-faces          whose outlines cross themselves (W105)
  *   turned-faces           turned over onto their neighbours (W106)
  *   crossings              pairs of triangles of faces that run through each other
- *   sunlit                 the share of the area that the sun reaches (sunlit.h)
+ *   sunlit                 the share of the area that the sun reaches
  *   distance-to            mean over vertices of the distance to the target; no number where there is none
  * TN_OK, TN_MEMORY or TN_STOPPED. */
 tn_status tn_soundness_measure(const tn_growth *growth, const tn_measuring *with, uint64_t asked, tn_fitness *fitness,

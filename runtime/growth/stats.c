@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
+#include "runtime/base/hash_table.h"
 #include "runtime/number/run.h"
 
 void tn_stats_clear(tn_stats *stats)
@@ -16,55 +18,46 @@ void tn_stats_clear(tn_stats *stats)
 
 /* ---- counts of few different values among many */
 
+typedef struct value_count {
+    uint32_t key;
+    uint64_t count;
+} value_count;
+
 typedef struct counter {
-    uint32_t *keys;
-    uint64_t *counts; /* 0: free */
+    value_count *items;
     size_t used, capacity;
+    tn_hash_table index;
 } counter;
 
 static void clear_counter(counter *table)
 {
-    free(table->keys);
-    free(table->counts);
+    free(table->items);
+    tn_hash_clear(&table->index);
 }
 
-static size_t find_slot(const counter *table, uint32_t key)
-{
-    size_t i = (size_t)((uint64_t)key * 0x9e3779b97f4a7c15u >> 32) & (table->capacity - 1);
-    while (table->counts[i] && table->keys[i] != key)
-        i = (i + 1) & (table->capacity - 1);
-    return i;
-}
+typedef struct wanted_value {
+    const value_count *items;
+    uint32_t key;
+} wanted_value;
 
-static bool enlarge(counter *table)
+static bool is_wanted(const void *context, uint32_t number)
 {
-    counter larger = {.capacity = table->capacity ? 2 * table->capacity : 64, .used = table->used};
-    larger.keys = malloc(larger.capacity * sizeof *larger.keys);
-    larger.counts = calloc(larger.capacity, sizeof *larger.counts);
-    if (!larger.keys || !larger.counts) {
-        clear_counter(&larger);
-        return false;
-    }
-    for (size_t i = 0; i < table->capacity; i++) {
-        if (!table->counts[i])
-            continue;
-        size_t slot = find_slot(&larger, table->keys[i]);
-        larger.keys[slot] = table->keys[i];
-        larger.counts[slot] = table->counts[i];
-    }
-    clear_counter(table);
-    *table = larger;
-    return true;
+    const wanted_value *w = context;
+    return w->items[number].key == w->key;
 }
 
 static bool count_one(counter *table, uint32_t key)
 {
-    if (2 * table->used >= table->capacity && !enlarge(table))
+    if (!tn_array_reserve(&table->items, &table->capacity, table->used, 1, sizeof *table->items))
         return false;
-    size_t slot = find_slot(table, key);
-    table->used += table->counts[slot] == 0;
-    table->keys[slot] = key;
-    table->counts[slot]++;
+    uint32_t number = (uint32_t)table->used;
+    wanted_value wanted = {table->items, key};
+    if (tn_hash_enter(&table->index, (uint64_t)key * 0x9e3779b97f4a7c15u >> 32, is_wanted, &wanted, &number, NULL) !=
+        TN_OK)
+        return false;
+    if (number == table->used)
+        table->items[table->used++] = (value_count){key, 0};
+    table->items[number].count++;
     return true;
 }
 
@@ -97,12 +90,10 @@ static tn_status count_ages(const tn_growth *growth, tn_stats *stats, tn_error *
         clear_counter(&table);
         return tn_fail_memory(error);
     }
-    for (size_t i = 0; i < table.capacity; i++) {
-        if (!table.counts[i])
-            continue;
-        uint32_t label = tn_state_label(table.keys[i]);
-        stats->labels[label] += table.counts[i];
-        stats->ages[stats->age_count++] = (tn_age_count){label, tn_state_age(table.keys[i]), table.counts[i]};
+    for (size_t i = 0; i < table.used; i++) {
+        uint32_t key = table.items[i].key, label = tn_state_label(key);
+        stats->labels[label] += table.items[i].count;
+        stats->ages[stats->age_count++] = (tn_age_count){label, tn_state_age(key), table.items[i].count};
     }
     qsort(stats->ages, stats->age_count, sizeof *stats->ages, compare_ages);
     clear_counter(&table);
@@ -120,9 +111,8 @@ static tn_status count_sides(const tn_map *map, tn_stats *stats, tn_error *error
         clear_counter(&table);
         return tn_fail_memory(error);
     }
-    for (size_t i = 0; i < table.capacity; i++)
-        if (table.counts[i])
-            stats->sides[stats->side_count++] = (tn_size_count){table.keys[i], table.counts[i]};
+    for (size_t i = 0; i < table.used; i++)
+        stats->sides[stats->side_count++] = (tn_size_count){table.items[i].key, table.items[i].count};
     qsort(stats->sides, stats->side_count, sizeof *stats->sides, compare_sides);
     clear_counter(&table);
     return TN_OK;

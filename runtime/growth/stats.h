@@ -57,7 +57,7 @@ typedef struct tn_fitness_goal {
     struct tn_named_goal *required; /* how far each requirement is from holding; owned by the study; no names */
     uint32_t required_count;
     double requirement_weight; /* of what they lack, in the sum */
-    uint64_t asked; /* a bit for each tn_measured that an expression or requirement needs */
+    uint64_t asked;            /* a bit for each tn_measured that an expression or requirement needs */
 } tn_fitness_goal;
 
 typedef struct tn_named_goal {
@@ -80,7 +80,7 @@ double tn_named_value(const tn_named_goal *goal, const tn_fitness *fitness);
  * all hold; not finite where one has no value. */
 double tn_fitness_lacking(const tn_fitness *fitness, const tn_fitness_goal *goals);
 
-/* What one goal adds to the sum: `goal` counts the terms, then the named ones. 0 where the term is not wanted. */
+/* What one goal adds to the sum: `goal` counts the terms, then the named ones. 0 if the term is not wanted. */
 double tn_fitness_part(const tn_fitness *fitness, const tn_fitness_goal *goals, uint32_t goal, double start_length);
 
 /* The sum over wanted terms and expressions of weight * |value - target| / max(|target|, unit), to be made small; the

@@ -3,7 +3,7 @@
 #ifndef TARTAN_GROWTH_STUDY_H
 #define TARTAN_GROWTH_STUDY_H
 
-#include "runtime/geometry/boundary_file.h"
+#include "runtime/geometry/boundary_mesh.h"
 #include "runtime/geometry/mesh.h"
 #include "runtime/growth/growth.h"
 #include "runtime/growth/soundness.h"
@@ -32,11 +32,11 @@ tn_status tn_study_read(const tn_module *module, const char *path, const tn_mesh
                         tn_error *error);
 void tn_study_clear(tn_study *study);
 
-/* The first boundary from `from` on with a mesh that a surface is to stay inside of, and which has no inside, since it is
- * open or has edges of more than two faces; how many boundaries there are where there is none. */
+/* The first boundary from `from` on with a mesh that a surface is to stay inside of, and which has no inside, since it
+ * is open or has edges of more than two faces; how many boundaries there are where there is none. */
 uint32_t tn_study_open_boundary(const tn_study *study, uint32_t from);
 
-/* Of the shapes of its boundary meshes; 0 where it has none. */
+/* Of the shapes of its boundary meshes; 0 if it has none. */
 uint64_t tn_study_meshes_hash(const tn_study *study);
 
 #endif

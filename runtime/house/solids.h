@@ -7,7 +7,7 @@
 #define TARTAN_HOUSE_SOLIDS_H
 
 #include "runtime/base/int128.h"
-#include "runtime/base/length_style.h"
+#include "runtime/base/length.h"
 #include "runtime/house/house.h"
 
 /* top / bottom, in lowest terms, bottom > 0. */

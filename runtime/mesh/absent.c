@@ -1,5 +1,5 @@
 /* OpenMesh's work in a build without the part `mesh`: there is none. */
-#include "runtime/base/part.h"
+#include "runtime/base/error.h"
 #include "runtime/mesh/openmesh.h"
 
 tn_status tn_openmesh_read(const char *path, tn_mesh *mesh, tn_error *error)

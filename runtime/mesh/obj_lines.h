@@ -5,7 +5,7 @@
 
 #include "runtime/base/error.h"
 
-/* TN_INVALID (E0901, with the number of the line in words) where a vertex has no three numbers, or a face names a
+/* TN_INVALID (E0901, with the number of the line in words) if a vertex has no three numbers, or a face names a
  * vertex that is not in the file; otherwise TN_OK, also where the file cannot be read: whoever reads it says so. */
 tn_status tn_obj_check(const char *path, tn_error *error);
 

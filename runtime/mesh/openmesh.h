@@ -6,10 +6,10 @@
 #define TARTAN_MESH_OPENMESH_H
 
 #include "runtime/base/formats.h"
-#include "runtime/geometry/boundary_file.h"
+#include "runtime/geometry/boundary_mesh.h"
 
 /* Reads OBJ, PLY, STL, OFF or OM. OpenMesh splits vertices where faces meet otherwise than on a surface; they are
- * welded again. E0901 where the file cannot be read; TN_INVALID where it is no mesh. */
+ * welded again. E0901 if the file cannot be read; TN_INVALID if it is no mesh. */
 tn_status tn_openmesh_read(const char *path, tn_mesh *mesh, tn_error *error);
 
 /* The same for whoever takes a reader. */

@@ -12,7 +12,7 @@
 
 typedef struct tn_builder tn_builder;
 
-tn_builder *tn_builder_new(void); /* NULL where out of memory */
+tn_builder *tn_builder_new(void); /* NULL if out of memory */
 void tn_builder_free(tn_builder *builder);
 
 /* Interns a text (equal texts share an offset). NULL is the empty string. */

@@ -6,7 +6,7 @@
 #include "runtime/module/module.h"
 #include "runtime/module/opcodes.h"
 
-/* An instruction with its operands in the order of its row; 0 where it has none. F64: its bits. */
+/* An instruction with its operands in the order of its row; 0 if it has none. F64: its bits. */
 typedef struct tn_instruction {
     tn_opcode opcode;
     uint32_t length; /* bytes */

@@ -7,6 +7,8 @@
 #ifndef TARTAN_MODULE_ENGINE_H
 #define TARTAN_MODULE_ENGINE_H
 
+#include <stdio.h>
+
 #include "runtime/module/lister.h"
 #include "runtime/module/verify.h"
 
@@ -25,7 +27,7 @@ typedef struct tn_engine {
     uint32_t codes;
     const tn_operand_rules *operands;
     size_t operand_count;
-    /* What a TERM is in the functions of one kind, by name: NULL where the engine has no such functions. */
+    /* What a TERM is in the functions of one kind, by name: NULL if the engine has no such functions. */
     const char *const *terms;
     uint32_t term_count;
     tn_function_kind term_kind;
@@ -58,14 +60,31 @@ struct tn_engines {
     size_t count;
 };
 
-/* The engine that has a section, or runs a kind of code; NULL where none does. */
+/* The engine that has a section, or runs a kind of code; NULL if none does. */
 const tn_engine *tn_engine_of_section(const tn_engines *engines, tn_section section);
 const tn_engine *tn_engine_of_code(const tn_engines *engines, tn_code_kind code);
 
-/* The engine that says what a TERM is in functions of this kind; NULL where none does. */
+/* The engine that says what a TERM is in functions of this kind; NULL if none does. */
 const tn_engine *tn_engine_of_terms(const tn_engines *engines, tn_function_kind kind);
 
-/* What the engines say of each kind of operands; NULL where none says anything. */
+/* What the engines say of each kind of operands; NULL if none says anything. */
 void tn_engines_operands(const tn_engines *engines, const tn_operand_rules *rules[TN_OPERANDS_COUNT]);
+
+/* Lists a module in text: tables, then each function's code beside the source lines it comes from. runtime/load.h does
+ * it with all engines. */
+
+/* Writes the listing to `out`; false if writing failed or memory ran out. */
+bool tn_module_list(const tn_module *module, const tn_engines *engines, FILE *out);
+
+/* The same, but only a record and the functions that it needs. */
+bool tn_module_list_record(const tn_module *module, const tn_engines *engines, tn_section section, uint32_t index,
+                           FILE *out);
+
+/* Loading a module with the engines that are given: what runtime/load.h does with all of them. */
+
+/* Loads and verifies a module. `limits` may be NULL (defaults). On success the caller owns *module. A module with
+ * sections or code of no engine that is given is refused. TN_INVALID (E0701 to E0703), TN_LIMIT (E0810), TN_MEMORY. */
+tn_status tn_module_read(const void *bytes, size_t size, const tn_engines *engines, const tn_module_limits *limits,
+                         tn_module **module, tn_error *error);
 
 #endif

@@ -6,7 +6,20 @@
 #include <stdio.h>
 
 #include "runtime/module/code.h"
-#include "runtime/module/disasm_lines.h"
+#include "runtime/module/module.h"
+
+/* The lines of a module's sources, for a listing that shows them beside the code: found when first needed. */
+
+typedef struct tn_source_lines tn_source_lines;
+
+tn_source_lines *tn_source_lines_new(const tn_module *module); /* NULL if out of memory */
+void tn_source_lines_free(tn_source_lines *lines);
+
+/* The line (from 0) of a source that holds a byte of it; false if out of memory. */
+bool tn_source_line(tn_source_lines *lines, uint32_t source, uint32_t offset, size_t *line);
+
+/* Where the text of a line that was found begins. */
+const char *tn_source_line_text(const tn_source_lines *lines, uint32_t source, size_t line);
 
 struct tn_operand_rules;
 struct tn_engines;
@@ -22,13 +35,13 @@ typedef struct tn_lister {
     uint32_t shown_file; /* the source line that was shown last */
     size_t shown_line;
     uint32_t function; /* whose instructions are being listed */
-    bool failed; /* out of memory */
+    bool failed;       /* out of memory */
 } tn_lister;
 
 void tn_list_text(tn_lister *lister, const char *text);
 void tn_list_name(tn_lister *lister, tn_string name);
 
-/* ` "what it is"`, or nothing where there is no text. */
+/* ` "what it is"`, or nothing if there is no text. */
 void tn_list_doc(tn_lister *lister, tn_string doc);
 
 /* Ends a line with where the record comes from. */

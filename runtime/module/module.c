@@ -1,15 +1,134 @@
-/* Reads a module's file: checks its header, finds its sections, decodes their records and has them verified. */
+/* Reads a module's file: checks its header, finds its sections, decodes their records and has them verified; and finds
+ * which engine has a section, and where in the source an instruction comes from. */
 #include "runtime/module/module.h"
 
 #include <stdlib.h>
 #include <string.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
 
 #include "runtime/base/array.h"
 #include "runtime/base/bytes.h"
+#include "runtime/module/builder.h"
+#include "runtime/module/engine.h"
 #include "runtime/module/layout.h"
-#include "runtime/module/load.h"
 #include "runtime/module/records.h"
 #include "runtime/module/verify.h"
+
+/* ==== finds the engine that a section, a kind of code or a kind of operands belongs to */
+
+const tn_engine *tn_engine_of_section(const tn_engines *engines, tn_section section)
+{
+    for (size_t i = 0; i < engines->count; i++)
+        for (const tn_section *own = engines->items[i]->sections; own && *own != TN_SECTION_STRINGS; own++)
+            if (*own == section)
+                return engines->items[i];
+    return NULL;
+}
+
+const tn_engine *tn_engine_of_code(const tn_engines *engines, tn_code_kind code)
+{
+    for (size_t i = 0; i < engines->count; i++)
+        if (engines->items[i]->codes >> code & 1)
+            return engines->items[i];
+    return NULL;
+}
+
+const tn_engine *tn_engine_of_terms(const tn_engines *engines, tn_function_kind kind)
+{
+    for (size_t i = 0; i < engines->count; i++)
+        if (engines->items[i]->terms && engines->items[i]->term_kind == kind)
+            return engines->items[i];
+    return NULL;
+}
+
+void tn_engines_operands(const tn_engines *engines, const tn_operand_rules *rules[TN_OPERANDS_COUNT])
+{
+    for (size_t i = 0; i < TN_OPERANDS_COUNT; i++)
+        rules[i] = NULL;
+    for (size_t i = 0; i < engines->count; i++)
+        for (size_t k = 0; k < engines->items[i]->operand_count; k++)
+            rules[engines->items[i]->operands[k].kind] = &engines->items[i]->operands[k];
+}
+
+/* ==== reads and writes a module's header and table of sections */
+
+uint64_t tn_module_hash_bytes(const uint8_t *bytes, size_t size)
+{
+    XXH3_state_t state;
+    static const uint8_t zeros[8];
+    XXH3_INITSTATE(&state);
+    XXH3_64bits_reset(&state);
+    XXH3_64bits_update(&state, bytes, TN_HEADER_HASH);
+    XXH3_64bits_update(&state, zeros, sizeof zeros);
+    XXH3_64bits_update(&state, bytes + TN_HEADER_BYTES, size - TN_HEADER_BYTES);
+    return XXH3_64bits_digest(&state);
+}
+
+void tn_module_rehash(uint8_t *bytes, size_t size)
+{
+    if (size >= TN_HEADER_BYTES)
+        tn_put_u64(bytes + TN_HEADER_HASH, tn_module_hash_bytes(bytes, size));
+}
+
+bool tn_module_has_magic(const void *bytes, size_t size)
+{
+    return size >= TN_MAGIC_SIZE && memcmp(bytes, TN_MAGIC, TN_MAGIC_SIZE) == 0;
+}
+
+/* ==== finds where in the source an instruction comes from */
+
+/* The record whose code has the offset: where that code begins. Records' code is contiguous and in their order. */
+static bool begin_in(const tn_table *table, tn_section_info info, const tn_member *code, uint32_t offset,
+                     uint32_t *begin)
+{
+    size_t low = 0, high = table->count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        const char *record = (const char *)table->records + middle * info.size;
+        uint32_t first = (uint32_t)tn_member_whole(record, code), end = (uint32_t)tn_member_whole(record, code + 1);
+        if (end <= offset) {
+            low = middle + 1;
+        } else if (first > offset) {
+            high = middle;
+        } else {
+            *begin = first;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Where the code begins of the record, of any section, that holds the offset; false if none does. */
+static bool code_begin(const tn_module *module, uint32_t offset, uint32_t *begin)
+{
+    for (tn_section section = 0; section < TN_SECTION_COUNT; section++) {
+        tn_section_info info = tn_section_describe(section);
+        for (size_t i = 0; i < info.members.count && module->tables[section].count > 0; i++)
+            if (info.members.items[i].kind == TN_MEMBER_CODE &&
+                begin_in(&module->tables[section], info, &info.members.items[i], offset, begin))
+                return true;
+    }
+    return false;
+}
+
+const tn_source_map_record *tn_module_place(const tn_module *module, uint32_t offset)
+{
+    uint32_t begin;
+    size_t low = 0, high = module->SOURCE_MAP_count; /* how many records lie at or before the offset */
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (module->SOURCE_MAP_records[middle].offset <= offset)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    if (!code_begin(module, offset, &begin) || low == 0 || module->SOURCE_MAP_records[low - 1].offset < begin)
+        return NULL;
+    return &module->SOURCE_MAP_records[low - 1];
+}
+
+/* ==== reads a module's file: checks its header, finds its sections, decodes their records and has them verified */
 
 /* A section as the file has it; no bytes where it has none. */
 typedef struct tn_stored {

@@ -103,7 +103,7 @@ static inline const char *tn_text(const tn_module *module, tn_string string)
 }
 
 /* The source place of the instruction at `offset` of the code section: its own, or that of the nearest instruction
- * before it in the same function or production that has one; NULL where there is none. */
+ * before it in the same function or production that has one; NULL if there is none. */
 const tn_source_map_record *tn_module_place(const tn_module *module, uint32_t offset);
 
 /* Does a module hold a grammar that genomes are mapped through? */

@@ -8,7 +8,7 @@
 
 /* What a field is; records.def says what each means. RUN, SLICE, CODE and PLACE are several fields. */
 typedef enum tn_member_kind {
-    TN_MEMBER_TEXT,  /* low..high bytes; low is 0 where it may be empty */
+    TN_MEMBER_TEXT,  /* low..high bytes; low is 0 if it may be empty */
     TN_MEMBER_WHOLE, /* U32 or I64, low..high; an ENUM too, which has names */
     TN_MEMBER_REAL,  /* least..most */
     TN_MEMBER_BITS,
@@ -38,7 +38,7 @@ typedef struct tn_member {
     int64_t low, high;
     double least, most;
     const char *words;        /* "a|b|c": of flags, from the lowest on */
-    const char *const *names; /* of an enumeration's values, by number, NULL where there is no value; or NULL */
+    const char *const *names; /* of an enumeration's values, by number, NULL if there is no value; or NULL */
 } tn_member;
 
 typedef struct tn_members {
@@ -60,7 +60,7 @@ tn_section_info tn_section_describe(tn_section section);
 #define TN_TITLE_MAX 32
 void tn_section_title(tn_section section, char title[TN_TITLE_MAX]);
 
-/* The section that a file calls by this number; TN_SECTION_COUNT where there is none. */
+/* The section that a file calls by this number; TN_SECTION_COUNT if there is none. */
 tn_section tn_section_numbered(uint32_t number);
 
 static inline uint32_t tn_storage_bytes(tn_storage storage)

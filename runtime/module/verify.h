@@ -3,14 +3,14 @@
  * It takes a module that was decoded but not looked at, and refuses it (TN_INVALID, E0703, with the record or the code
  * offset named) unless:
  *
- *   strings   are UTF-8, begin where another ends, and names are of the length that their row says
- *   fields    are what their rows in records.def say: numbers in bounds, references to records that are there, runs
- * that follow one another and leave nothing out (so that the work is linear), places in their source's text sections
- * and kinds of code belong to an engine that is there code      of the records follows one another; functions end with
- * their one last instruction; every opcode is known and of the function's kind of code; operands are what their rows in
- * operands.def say; the stack never runs empty and never passes stack_max, which never passes the limit; the map
- * ascends and names instructions engines   find what must hold between fields (engine.h): each of them says what in its
- * own verify.c
+ * - strings are UTF-8, begin where another ends, and names are of the length that their row says;
+ * - fields are what their rows in records.def say: numbers in bounds, references to records that are there, runs that
+ *   follow one another and leave nothing out (so that the work is linear), places in their source's text;
+ * - sections and kinds of code belong to an engine that is there;
+ * - code of the records follows one another; functions end with their one last instruction; every opcode is known and
+ * of the function's kind of code; operands are what their rows in operands.def say; the stack never runs empty and
+ * never passes stack_max, which never passes the limit; the map ascends and names instructions;
+ * - engines find what must hold between fields (engine.h); each says in its own folder what that is.
  *
  * Time and memory are linear in the module's size but for sorting the names.
  */

@@ -146,7 +146,7 @@ static char separator_of(const char *line, size_t length)
     return memchr(line, ',', length) ? ',' : memchr(line, ';', length) ? ';' : ' ';
 }
 
-/* How many fields a line of numbers has; 0 where something else is in it. */
+/* How many fields a line of numbers has; 0 if something else is in it. */
 static size_t count_numbers(const char *line, size_t length, char separator)
 {
     size_t count = 0, begin = separator == ' ' ? begin_of_next(line, 0, length, separator) : 0;

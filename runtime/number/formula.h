@@ -37,11 +37,11 @@ void tn_formula_keep(tn_formula *formula, uint32_t local);
 void tn_formula_kept(tn_formula *formula, uint32_t local);
 void tn_formula_mesh_distance(tn_formula *formula, uint32_t mesh);
 
-/* Appends once more what stands from `begin` to `end`, the whole code of one number. False where the code would be
+/* Appends once more what stands from `begin` to `end`, the whole code of one number. False if the code would be
  * longer than `most`. */
 bool tn_formula_repeat(tn_formula *formula, size_t begin, size_t end, size_t most);
 
-/* Ends the code: TN_OK, or TN_MEMORY where something before this failed. */
+/* Ends the code: TN_OK, or TN_MEMORY if something before this failed. */
 tn_status tn_formula_end(tn_formula *formula, tn_error *error);
 
 /* The terms that it asks for, of the first 64: bit i is that of term i. It has been ended. */
@@ -52,5 +52,22 @@ bool tn_formula_has_terms(const tn_formula *formula);
 
 /* Is all of it one number? It has been ended. */
 bool tn_formula_is_constant(const tn_formula *formula, double *number);
+
+/* Sentences that are arithmetic, as grammars write them for `fit` (docs/evolution.md), read into code.
+ *
+ *   expression: either [(< <= > >= == !=) either]   either: both {| both}   both: sum {& sum}
+ *   sum: term {(+|-) term}   term: factor {(*|/) factor}   factor: -factor | simple [** factor]
+ *   simple: number | name | x[:, column] | function(expression, ...) | (expression) | ~factor | +factor
+ *
+ * The operations are the protected ones of operations.def, which have a value for all numbers. Sentences for Python are
+ * read too: with NumPy's functions (`np.sin`) and those of PonyGE2 (`pdiv`, `psqrt`, `plog`, `rlog`, `aq`). */
+
+#define TN_SENTENCE_CODE ((size_t)1 << 24) /* bytes of code that repeating conditions may come to */
+#define TN_SENTENCE_NEST 1000u             /* how deep parentheses may nest */
+
+/* Begins the formula and ends it. A name's term is its index. TN_INVALID with the column (E1242), TN_LIMIT if the
+ * sentence nests too deep, TN_MEMORY. */
+tn_status tn_sentence_read(const char *text, size_t size, const char *const *names, size_t name_count,
+                           tn_formula *formula, tn_error *error);
 
 #endif

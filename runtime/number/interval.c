@@ -1,7 +1,7 @@
 /* Computes with intervals: for each operation one that holds all its values.
  *
  * IEEE 754 rounds sums, products, quotients and roots to the nearest number, so that one unit in the last place outward
- * holds the exact bound and every rounded value; functions of numeric.h are within one unit, and are given three.
+ * holds the exact bound and every rounded value; functions of elementary.h are within one unit, and are given three.
  * Infinite operands of an expression are values like others.
  */
 #include "runtime/number/interval.h"
@@ -9,7 +9,7 @@
 #include <math.h>
 
 #include "runtime/base/bytes.h"
-#include "runtime/numeric/numeric.h"
+#include "runtime/math/elementary.h"
 
 static const tn_interval unbounded = {-INFINITY, INFINITY, true};
 static const tn_interval none = {INFINITY, -INFINITY, true};

@@ -7,7 +7,7 @@
 
 #include "runtime/module/opcodes.h"
 
-/* Every value lies between the two, or is none where `fails` says that this may be. Where low is above high there is no
+/* Every value lies between the two, or is none if `fails` says that this may be. Where low is above high there is no
  * value anywhere. */
 typedef struct tn_interval {
     double low, high;

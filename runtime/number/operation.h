@@ -1,7 +1,7 @@
 /* Operations on doubles, by their opcodes: the rows of operations.def as functions.
  *
  * None depends on the machine: each is made of operations of IEEE 754, choices, and functions of
- * runtime/numeric/numeric.h.
+ * runtime/math/elementary.h.
  */
 #ifndef TARTAN_NUMBER_OPERATION_H
 #define TARTAN_NUMBER_OPERATION_H

@@ -22,7 +22,7 @@ typedef struct tn_shared_node {
 void tn_shared_clear(tn_shared *s)
 {
     free(s->nodes);
-    free(s->table);
+    tn_hash_clear(&s->index);
     free(s->stack);
     free(s->roots);
     free(s->heads);
@@ -35,8 +35,7 @@ void tn_shared_clear(tn_shared *s)
 void tn_shared_begin(tn_shared *s)
 {
     s->node_count = s->root_count = 0;
-    if (s->table)
-        memset(s->table, 0xFF, s->table_size * sizeof *s->table);
+    tn_hash_forget(&s->index);
 }
 
 /* ---- nodes */
@@ -63,42 +62,28 @@ static bool same(const node *a, const node *b)
     return alike;
 }
 
-static size_t place_of(const tn_shared *s, const node *n)
+typedef struct wanted_node {
+    const tn_shared *shared;
+    const node *node;
+} wanted_node;
+
+static bool is_wanted(const void *context, uint32_t number)
 {
-    size_t place = (size_t)hash_of(n) & (s->table_size - 1);
-    while (s->table[place] != NONE && !same(&s->nodes[s->table[place]], n))
-        place = (place + 1) & (s->table_size - 1);
-    return place;
+    const wanted_node *w = context;
+    return same(&w->shared->nodes[number], w->node);
 }
 
-static bool grow_table(tn_shared *s)
-{
-    if (s->node_count * 2 < s->table_size)
-        return true;
-    size_t size = s->table_size ? 2 * s->table_size : 1024;
-    uint32_t *table = malloc(size * sizeof *table);
-    if (!table)
-        return false;
-    free(s->table);
-    s->table = table;
-    s->table_size = size;
-    memset(table, 0xFF, size * sizeof *table);
-    for (size_t i = 0; i < s->node_count; i++)
-        table[place_of(s, &s->nodes[i])] = (uint32_t)i;
-    return true;
-}
-
-/* The node that is like this one; false where out of memory. */
+/* The node that is like this one; false if out of memory. */
 static bool enter(tn_shared *s, const node *n, uint32_t *index)
 {
-    if (!grow_table(s) || !tn_array_reserve(&s->nodes, &s->node_capacity, s->node_count, 1, sizeof *s->nodes))
+    if (!tn_array_reserve(&s->nodes, &s->node_capacity, s->node_count, 1, sizeof *s->nodes))
         return false;
-    size_t place = place_of(s, n);
-    if (s->table[place] == NONE) {
-        s->table[place] = (uint32_t)s->node_count;
+    wanted_node wanted = {s, n};
+    *index = (uint32_t)s->node_count;
+    if (tn_hash_enter(&s->index, hash_of(n), is_wanted, &wanted, index, NULL) != TN_OK)
+        return false;
+    if (*index == s->node_count)
         s->nodes[s->node_count++] = *n;
-    }
-    *index = s->table[place];
     return true;
 }
 

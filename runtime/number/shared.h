@@ -8,19 +8,20 @@
 #define TARTAN_NUMBER_SHARED_H
 
 #include "runtime/base/error.h"
+#include "runtime/base/hash_table.h"
 
 /* Zero it to begin with; it may be begun again and again, one thread at a time. */
 typedef struct tn_shared {
     struct tn_shared_node *nodes; /* owned, as all below */
-    uint32_t *table;              /* hash table of nodes */
+    tn_hash_table index;          /* of nodes */
     uint32_t *stack;
     uint32_t *roots; /* by formula */
     uint32_t *heads; /* by node: the last formula whose value it is */
     uint32_t *next;  /* by formula: the next with the same value */
     uint32_t *free;  /* rows that nothing needs */
     double *rows;
-    size_t node_count, node_capacity, table_size, stack_capacity, root_count, root_capacity, head_capacity,
-        next_capacity, row_count, row_capacity, free_count, free_capacity;
+    size_t node_count, node_capacity, stack_capacity, root_count, root_capacity, head_capacity, next_capacity,
+        row_count, row_capacity, free_count, free_capacity;
 } tn_shared;
 
 void tn_shared_clear(tn_shared *shared);

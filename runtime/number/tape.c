@@ -129,7 +129,7 @@ static bool add(lowering *l, const tn_instruction *i)
     return push(l, (uint32_t)l->count++);
 }
 
-/* Runs the code's stack with values instead of numbers. False where out of memory. */
+/* Runs the code's stack with values instead of numbers. False if out of memory. */
 static bool read_code(lowering *l, const uint8_t *code, uint32_t offset)
 {
     for (tn_instruction i = tn_code_read(code, offset); i.opcode != TN_OP_VALUE; i = tn_code_read(code, offset)) {

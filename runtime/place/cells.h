@@ -39,7 +39,7 @@ static inline int32_t tn_cell_chunk_start(int32_t chunk, int axis)
 
 typedef struct tn_cells tn_cells;
 
-/* watch: who waits for the filling, borrowed, or NULL. NULL where out of memory. */
+/* watch: who waits for the filling, borrowed, or NULL. NULL if out of memory. */
 tn_cells *tn_cells_new(tn_watch *watch);
 void tn_cells_free(tn_cells *cells);
 
@@ -79,10 +79,10 @@ tn_status tn_cells_status(const tn_cells *cells, tn_error *error);
 /* How many cells are filled. */
 uint64_t tn_cells_count(const tn_cells *cells);
 
-/* A filled cell of the box, the lowest by x, then y, then z; false where there is none. */
+/* A filled cell of the box, the lowest by x, then y, then z; false if there is none. */
 bool tn_cells_first(tn_cells *cells, const tn_cell_box *box, int32_t cell[3]);
 
-/* Fills the box; cells that are filled stay so. TN_STOPPED where the watch says so. */
+/* Fills the box; cells that are filled stay so. TN_STOPPED if the watch says so. */
 tn_status tn_cells_fill(tn_cells *cells, const tn_cell_box *box, tn_error *error);
 
 /* Makes the box free again, which was free before it was filled. */
@@ -154,5 +154,13 @@ static inline bool tn_cells_has(tn_cells *cells, const int32_t cell[3])
                tn_cell_chunk_place(cell[0], 0) &
            1;
 }
+
+/* The shells of bounds, which fill their cells at once: nothing is placed through them. */
+
+/* The shell of a box about the frame; its heading does not count. */
+tn_status tn_bound_box(tn_cells *cells, const tn_frame *frame, const tn_step *step, tn_error *error);
+
+/* The shell of a ball about the origin. */
+tn_status tn_bound_ball(tn_cells *cells, int32_t radius, tn_error *error);
 
 #endif

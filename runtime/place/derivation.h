@@ -2,10 +2,24 @@
 #ifndef TARTAN_PLACE_DERIVATION_H
 #define TARTAN_PLACE_DERIVATION_H
 
+#include <stdint.h>
+
 #include "runtime/place/acts.h"
 #include "runtime/place/grow.h"
-#include "runtime/place/mersenne.h"
-#include "runtime/place/trace.h"
+
+/* The random numbers of the published connection-grammar program: MT19937 (Matsumoto and Nishimura 1998), seeded by
+ * init_genrand, 53 bits a draw. Only .pcfg grammars use it, so that a seed gives that program's models; everything else
+ * in Tartan draws from runtime/base/random.h. */
+
+typedef struct tn_mersenne {
+    uint32_t state[624];
+    uint32_t next;
+} tn_mersenne;
+
+void tn_mersenne_seed(tn_mersenne *generator, uint32_t seed);
+
+/* At least 0 and below 1. */
+double tn_mersenne_draw(tn_mersenne *generator);
 
 /* Where an alternative is being read. */
 typedef struct cursor {
@@ -81,7 +95,7 @@ enum { TN_PLACE_ASK_EVERY = 4096 };
 /* Tells how many parts there are, and asks whether to go on. */
 tn_status tn_look_up(const derivation *d);
 
-/* The next step of the topmost alternative that has one; NULL where all are done. */
+/* The next step of the topmost alternative that has one; NULL if all are done. */
 const tn_step *tn_pending_next(const derivation *d, cursor_stack *stack, uint32_t *index, uint32_t *alternative);
 
 tn_status tn_frame_push(derivation *d, frame_stack *stack, const tn_frame *frame);
@@ -103,25 +117,5 @@ tn_status tn_set_bound(derivation *d, const tn_frame *frame, const tn_step *step
 
 /* What is in the way of a step's box: its cell that is filled, and what filled that, where boxes are kept. */
 tn_place_obstacle tn_obstacle_find(derivation *d, const tn_cell_box *box);
-
-/* Does an alternative fit? Where it does not, and was looked at step by step, d->refused says why. */
-tn_status tn_fits_here(derivation *d, uint32_t alternative, bool *fits);
-
-/* Chooses among alternatives whose lookaheads were worked out. False where they were not, or do not say all here. */
-bool tn_choose_traced(derivation *d, uint32_t index, uint32_t *chosen);
-
-tn_status tn_look_ahead(derivation *d, uint32_t alternative, bool *fits);
-
-/* The alternative by which symbol `index` is expanded, at the last frame; `from` is that which asks for it. */
-tn_status tn_choose(derivation *d, uint32_t index, uint32_t from, uint32_t *chosen);
-
-tn_status tn_take_part(derivation *d, const tn_frame *frame, const char *name);
-
-/* FILL, FILL_OVER, BLOCK or TOUCH: step `step` of the rules, which `alternative` put there. */
-tn_status tn_take_cells(derivation *d, tn_step_kind kind, const tn_cell_box *box, uint32_t step, uint32_t alternative);
-
-/* Derives by acts from an alternative of the start on, at the only frame that there is; something is filled. TN_INVALID
- * and TN_LIMIT say only that deriving by steps will not come to a good end either. */
-tn_status tn_derive_by_acts(derivation *d, uint32_t alternative);
 
 #endif

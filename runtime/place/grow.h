@@ -51,7 +51,7 @@ typedef enum tn_place_outcome {
 typedef struct tn_place_event {
     tn_place_outcome outcome;
     uint32_t alternative;
-    const tn_frame *frame;      /* where its symbol is expanded; NULL where there is none left */
+    const tn_frame *frame;      /* where its symbol is expanded; NULL if there is none left */
     uint32_t step;              /* REFUSED: that failed */
     tn_place_obstacle obstacle; /* REFUSED: not known where there is nothing to touch */
     size_t parts;               /* placed so far */

@@ -12,7 +12,7 @@ typedef struct tn_heights {
     uint32_t most; /* white; at least 1 */
 } tn_heights;
 
-/* Reads a grey picture: PGM, as text (P2) or binary (P5). TN_INVALID with what is wrong (no code), TN_LIMIT where it
+/* Reads a grey picture: PGM, as text (P2) or binary (P5). TN_INVALID with what is wrong (no code), TN_LIMIT if it
  * has more than 65,536 pixels along a side or 67,108,864 in all, TN_MEMORY. */
 tn_status tn_heights_read(const uint8_t *bytes, size_t size, tn_heights *heights, tn_error *error);
 void tn_heights_clear(tn_heights *heights);

@@ -12,7 +12,7 @@ typedef struct tn_placed_joint {
 } tn_placed_joint;
 
 typedef struct tn_placed_joints {
-    const tn_kit_part_record **kinds; /* [part]: NULL where the kit does not have it */
+    const tn_kit_part_record **kinds; /* [part]: NULL if the kit does not have it */
     size_t count;                     /* parts */
     size_t unknown;
     tn_placed_joint *links; /* pairs of parts that join, once each, ascending */
@@ -29,10 +29,10 @@ tn_status tn_placed_joints_find(const tn_module *module, const tn_placed_model *
                                 tn_placed_joints *joints, tn_error *error);
 void tn_placed_joints_clear(tn_placed_joints *joints);
 
-/* The part of a kit by its name; NULL where it has none. */
+/* The part of a kit by its name; NULL if it has none. */
 const tn_kit_part_record *tn_kit_part_named(const tn_module *module, const char *name);
 
-/* The part that an LDraw file means, in which names are the same in capitals or not; NULL where the kit has none. */
+/* The part that an LDraw file means, in which names are the same in capitals or not; NULL if the kit has none. */
 const tn_kit_part_record *tn_kit_part_meant(const tn_module *module, const char *name);
 
 /* Do connectors of two types join that are turned about their axis so that what is beside it (tn_axis_beside) points

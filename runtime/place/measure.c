@@ -1,13 +1,19 @@
-/* Measures placed models. */
+/* Measures placed models, and holds them to what their kit requires. */
 #include "runtime/place/measure.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/hash_table.h"
+#include "runtime/base/random.h"
+#include "runtime/module/code.h"
+#include "runtime/number/run.h"
 #include "runtime/place/joints.h"
 #include "runtime/place/space.h"
-#include "runtime/place/write.h"
+
+/* ==== measures placed models */
 
 /* ---- the centre of mass, and its distance to the edge of the hull of what stands on the ground (Andrew's  */
 
@@ -135,7 +141,7 @@ static double distance(const point *hull, size_t count, const point *p)
  * height `ground` (a cell's lower face). Below 0: outside, so that the model falls over. Parts weigh what the kit says;
  * where all of them weigh nothing, they weigh their cells. 0 for a model without known parts. */
 static tn_status find_balance(const tn_module *module, const tn_placed_model *model, const tn_placed_joints *joints,
-                            int32_t ground, double *balance, tn_error *error)
+                              int32_t ground, double *balance, tn_error *error)
 {
     weighing w = {.module = module, .model = model, .joints = joints};
     point centre;
@@ -236,6 +242,52 @@ void tn_placed_sums(const tn_module *module, const uint64_t *used, double terms[
     }
 }
 
+/* ---- counts of parts */
+
+typedef struct wanted_part {
+    const tn_part_count *counts;
+    const char *name;
+    int32_t colour;
+} wanted_part;
+
+static bool is_wanted(const void *context, uint32_t number)
+{
+    const wanted_part *w = context;
+    const tn_part_count *found = &w->counts[number];
+    return found->colour == w->colour && strcmp(found->name, w->name) == 0;
+}
+
+/* Texts of one name are one text of the module. */
+static uint64_t hash_of(const char *name, int32_t colour)
+{
+    return tn_mix64((uint64_t)(uintptr_t)name ^ tn_mix64((uint32_t)colour));
+}
+
+tn_status tn_place_count_parts(const tn_placed_model *model, tn_part_count **counts, size_t *kinds, tn_error *error)
+{
+    tn_hash_table index = {0};
+    *kinds = 0;
+    *counts = calloc(model->count + 1, sizeof **counts);
+    tn_status status = *counts ? TN_OK : tn_fail_memory(error);
+    for (size_t i = 0; i < model->count && status == TN_OK; i++) {
+        const tn_placed_part *part = &model->parts[i];
+        wanted_part wanted = {*counts, part->name, part->frame.colour};
+        uint32_t number = (uint32_t)*kinds;
+        status = tn_hash_enter(&index, hash_of(wanted.name, wanted.colour), is_wanted, &wanted, &number, error);
+        if (status != TN_OK)
+            break;
+        if (number == *kinds)
+            (*counts)[(*kinds)++] = (tn_part_count){wanted.name, wanted.colour, 0};
+        (*counts)[number].count++;
+    }
+    tn_hash_clear(&index);
+    if (status == TN_OK)
+        return TN_OK;
+    free(*counts);
+    *counts = NULL;
+    return status;
+}
+
 static tn_status count_kinds(const tn_module *module, const tn_placed_model *model, tn_placed_measures *m,
                              tn_error *error)
 {
@@ -263,7 +315,7 @@ static tn_status count_kinds(const tn_module *module, const tn_placed_model *mod
     return TN_OK;
 }
 
-/* The cells of a space; 0 where none is known. */
+/* The cells of a space; 0 if none is known. */
 static tn_status count_inside(const tn_module *module, const tn_kit_model_record *space, tn_watch *watch,
                               uint64_t *inside, tn_error *error)
 {
@@ -335,4 +387,103 @@ void tn_placed_measures_clear(tn_placed_measures *measured)
     free(measured->floating);
     free(measured->overlaps);
     *measured = (tn_placed_measures){0};
+}
+
+/* ==== holds what was placed to what its model requires */
+
+bool tn_kit_condition_holds(const tn_module *module, uint32_t function, const tn_placed_measures *measured)
+{
+    double value = tn_number_run(module->code, module->FUNCTION_records[function].code_begin, measured->terms);
+    return value != 0 && !isnan(value);
+}
+
+const tn_kit_condition_record *tn_kit_next_unmet(const tn_module *module, const tn_kit_model_record *model,
+                                                 const tn_placed_measures *measured, bool tests, uint32_t *i,
+                                                 tn_kit_tally *tally)
+{
+    while (*i < model->condition_count) {
+        const tn_kit_condition_record *condition = &module->KIT_CONDITION_records[model->condition_first + (*i)++];
+        if (condition->flags & TN_CONDITION_TEST && !tests)
+            continue;
+        bool holds = tn_kit_condition_holds(module, condition->holds, measured);
+        tally->passed += holds;
+        tally->failed += !holds;
+        if (!holds)
+            return condition;
+    }
+    return NULL;
+}
+
+/* ---- words */
+
+/* What was found of each term that a condition names: "components is 3, fill is 0.8". */
+static void write_found(const tn_module *module, uint32_t function, const tn_placed_measures *measured, char *text,
+                        size_t size)
+{
+    const tn_function_record *f = &module->FUNCTION_records[function];
+    bool seen[TN_PLACED_TERM_COUNT] = {false};
+    size_t used = 0;
+    text[0] = '\0';
+    tn_instruction i;
+    for (uint32_t offset = f->code_begin; offset < f->code_end && used < size; offset += i.length) {
+        i = tn_code_read(module->code, offset);
+        if (i.opcode != TN_OP_TERM || seen[i.first])
+            continue;
+        seen[i.first] = true;
+        double value = measured->terms[i.first];
+        size_t slot = (size_t)i.first - TN_PLACED_COUNTED;
+        const char *comma = used ? ", " : "";
+        if (i.first >= TN_PLACED_COUNTED && slot < module->COUNTED_count)
+            used += (size_t)snprintf(text + used, size - used, "%scount(%.60s) is %.10g", comma,
+                                     tn_text(module, module->COUNTED_records[slot].part), value);
+        else
+            used += (size_t)snprintf(text + used, size - used, "%s%s is %.10g", comma, tn_placed_terms[i.first], value);
+    }
+}
+
+/* Is the condition about the part of the space that is filled? A larger space does not raise that. */
+static bool asks_fill(const tn_module *module, uint32_t function)
+{
+    const tn_function_record *f = &module->FUNCTION_records[function];
+    tn_instruction i;
+    for (uint32_t offset = f->code_begin; offset < f->code_end; offset += i.length) {
+        i = tn_code_read(module->code, offset);
+        if (i.opcode == TN_OP_TERM && i.first == TN_PLACED_FILL)
+            return true;
+    }
+    return false;
+}
+
+tn_status tn_kit_fail_condition(const tn_module *module, const tn_kit_condition_record *condition,
+                                const tn_kit_model_record *model, const tn_placed_measures *measured, bool placed,
+                                tn_error *error)
+{
+    char found[300];
+    write_found(module, condition->holds, measured, found, sizeof found);
+    tn_fail(error, TN_INVALID, E_PLACE_CONDITION, "%s %.100s does not meet this: %s", model ? "model" : "the",
+            model ? tn_text(module, model->name) : "model", found);
+    if (placed)
+        tn_error_help(error, "another --seed%s may help",
+                      asks_fill(module, condition->holds) ? " or another order of alternatives"
+                                                          : ", another order of alternatives, or a larger space");
+    return TN_INVALID;
+}
+
+/* ---- measuring */
+
+static bool requires_something(const tn_place_rules *rules)
+{
+    const tn_kit_model_record *model = rules->space;
+    for (uint32_t i = 0; model && i < model->condition_count; i++)
+        if (!(rules->module->KIT_CONDITION_records[model->condition_first + i].flags & TN_CONDITION_TEST))
+            return true;
+    return false;
+}
+
+tn_status tn_kit_measure_required(const tn_place_rules *rules, const tn_placed_model *model, tn_watch *watch,
+                                  bool *required, tn_placed_measures *measured, tn_error *error)
+{
+    *required = requires_something(rules);
+    *measured = (tn_placed_measures){0};
+    return *required ? tn_placed_measure(rules->module, rules->space, model, watch, measured, error) : TN_OK;
 }

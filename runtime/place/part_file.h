@@ -9,7 +9,7 @@
 #include "runtime/module/values.h"
 
 /* Gives the bytes of a file, which is called `name` in small letters, with / between folders; the reader frees them.
- * TN_IO where there is none. */
+ * TN_IO if there is none. */
 typedef struct tn_part_library {
     tn_status (*read)(void *context, const char *name, uint8_t **bytes, size_t *size, tn_error *error);
     void *context;
@@ -33,7 +33,7 @@ typedef struct tn_part_file {
 } tn_part_file;
 
 /* TN_INVALID or TN_IO (no code) with what is wrong: a file that is missing or contains itself, a line that cannot be
- * read; TN_LIMIT where files nest deeper than 32 or have more than 1,000,000 lines together, or 4,096
+ * read; TN_LIMIT if files nest deeper than 32 or have more than 1,000,000 lines together, or 4,096
  * studs. */
 tn_status tn_part_file_read(const tn_part_library *library, const char *name, tn_part_file *part, tn_error *error);
 void tn_part_file_clear(tn_part_file *part);

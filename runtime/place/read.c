@@ -273,7 +273,7 @@ static int by_name(const void *a, const void *b)
     return strcasecmp((*one)->name, (*other)->name);
 }
 
-/* References from `first` on, by their names. NULL where out of memory. */
+/* References from `first` on, by their names. NULL if out of memory. */
 static reference **sort_references(const reader *r, size_t first)
 {
     size_t count = r->reference_count - first;
@@ -310,7 +310,7 @@ static int by_file_name(const void *a, const void *b)
     return order != 0 ? order : (*one > *other) - (*one < *other);
 }
 
-/* The sub-files by their names: all but the model, which cannot be one. NULL where out of memory. */
+/* The sub-files by their names: all but the model, which cannot be one. NULL if out of memory. */
 static subfile **sort_files(const reader *r)
 {
     subfile **sorted = malloc(r->file_count * sizeof *sorted);

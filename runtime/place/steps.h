@@ -20,7 +20,7 @@ typedef struct tn_placed_steps {
     size_t hanging, loose;
 } tn_placed_steps;
 
-/* Which steps the model says that it is built in (NULL: of a connection grammar). False where it says none; layers,
+/* Which steps the model says that it is built in (NULL: of a connection grammar). False if it says none; layers,
  * then. */
 bool tn_kit_model_steps(const tn_kit_model_record *model, tn_steps_wish *wish);
 

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "runtime/base/int128.h"
-#include "runtime/base/random.h"
 
 /* The matrix of a turn, row by row: its columns are where right, down and back point. */
 static void write_turn(uint32_t turn, FILE *out)
@@ -131,52 +130,6 @@ void tn_place_write_mpd(const tn_module *module, const tn_placed_model *model, c
 }
 
 /* ---- lists of parts */
-
-typedef struct part_table {
-    tn_part_count *counts;
-    size_t *slots; /* one more than an index of the counts; 0: free */
-    size_t kinds, slot_count;
-} part_table;
-
-/* Texts of one name are one text of the module. */
-static size_t *slot_of(const part_table *table, const char *name, int32_t colour)
-{
-    size_t slot = (size_t)tn_mix64((uint64_t)(uintptr_t)name ^ tn_mix64((uint32_t)colour)) & (table->slot_count - 1);
-    for (; table->slots[slot]; slot = (slot + 1) & (table->slot_count - 1)) {
-        const tn_part_count *found = &table->counts[table->slots[slot] - 1];
-        if (found->colour == colour && strcmp(found->name, name) == 0)
-            break;
-    }
-    return &table->slots[slot];
-}
-
-tn_status tn_place_count_parts(const tn_placed_model *model, tn_part_count **counts, size_t *kinds, tn_error *error)
-{
-    part_table table = {.slot_count = 16};
-    while (table.slot_count < 2 * model->count)
-        table.slot_count *= 2;
-    table.counts = calloc(model->count + 1, sizeof *table.counts);
-    table.slots = calloc(table.slot_count, sizeof *table.slots);
-    *counts = table.counts;
-    if (!table.counts || !table.slots) {
-        free(table.counts);
-        free(table.slots);
-        *counts = NULL;
-        return tn_fail_memory(error);
-    }
-    for (size_t i = 0; i < model->count; i++) {
-        const tn_placed_part *part = &model->parts[i];
-        size_t *slot = slot_of(&table, part->name, part->frame.colour);
-        if (!*slot) {
-            table.counts[table.kinds++] = (tn_part_count){part->name, part->frame.colour, 0};
-            *slot = table.kinds;
-        }
-        table.counts[*slot - 1].count++;
-    }
-    *kinds = table.kinds;
-    free(table.slots);
-    return TN_OK;
-}
 
 /* A field of a CSV file: in quotes where it has to be. */
 static void write_field(const char *text, FILE *out)

@@ -40,14 +40,4 @@ void tn_step_write(const tn_step *step, FILE *out);
 /* A step as its author wrote it: `length` bytes of a source of the module; empty where the module does not say. */
 const char *tn_step_text(const tn_place_rules *rules, const tn_step *step, size_t *length);
 
-/* How many parts there are of a name and colour. */
-typedef struct tn_part_count {
-    const char *name;
-    int32_t colour;
-    uint64_t count;
-} tn_part_count;
-
-/* All of these, in the order of their first; *counts is the caller's to free. */
-tn_status tn_place_count_parts(const tn_placed_model *model, tn_part_count **counts, size_t *kinds, tn_error *error);
-
 #endif

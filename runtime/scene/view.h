@@ -7,9 +7,9 @@
 
 #include "runtime/base/picture.h"
 #include "runtime/base/watch.h"
-#include "runtime/geometry/camera.h"
 #include "runtime/geometry/guide/guide.h"
 #include "runtime/geometry/mesh.h"
+#include "runtime/geometry/render.h"
 
 #define TN_DRAWN_FACES_MAX 2000000u
 

@@ -21,8 +21,8 @@ typedef struct tn_solid_box {
 typedef struct tn_design {
     tn_solid_box *boxes; /* owned */
     uint32_t box_count;
-    uint32_t flags;     /* TN_SOLID_SYMMETRY_X and so on */
-    tn_face_unit unit;  /* of its faces as written */
+    uint32_t flags;    /* TN_SOLID_SYMMETRY_X and so on */
+    tn_face_unit unit; /* of its faces as written */
 } tn_design;
 
 /* A box that another squashed: the face across `axis` went from `before` to `after`. */
@@ -59,5 +59,10 @@ uint32_t tn_design_image(const tn_design *design, uint32_t number);
 
 /* What is left of a box when it is clipped, in its image. */
 void tn_design_cell(const tn_design *design, uint32_t box, uint32_t image, tn_cut_box *cell);
+
+/* Boxes of designs that are bred: what a list of genes means, as `genes (...)` of the language does. */
+
+/* The box of nine genes in steps, in a design of these flags (TN_SOLID_FLAT, with its depth; TN_SOLID_NOCLIP). */
+void tn_box_of_genes(const double genes[TN_BOX_GENES], uint32_t flags, double depth, tn_solid_box *box);
 
 #endif

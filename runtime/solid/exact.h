@@ -18,7 +18,7 @@ typedef struct tn_exact {
 
 tn_int128 tn_power_of_ten(int exponent);
 
-/* Reads digits with a point and an exponent. False where there are more than 36 digits. */
+/* Reads digits with a point and an exponent. False if there are more than 36 digits. */
 bool tn_exact_read(const char *text, size_t size, tn_exact *number);
 
 /* The decimal with the fewest digits that is rounded to this double. */

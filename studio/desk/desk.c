@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "ask/session/questions.h"
-#include "driver/open/stdlib_texts.h"
+#include "driver/open/stdlib.h"
 #include "include/tartan/ask.h"
 #include "lsp/workspace.h"
 #include "runtime/base/array.h"

@@ -73,8 +73,8 @@ typedef struct tn_studio_files {
     bool cut;       /* there is more than is looked at */
 } tn_studio_files;
 
-/* Lists the rule files, with the limits of lsp/folders.h. Hidden folders and node_modules are passed over, and links to
- * folders. TN_MEMORY, TN_IO: the folder is gone. In all cases clear the list. */
+/* Lists the rule files, with the limits of lsp/workspace.h. Hidden folders and node_modules are passed over, and links
+ * to folders. TN_MEMORY, TN_IO: the folder is gone. In all cases clear the list. */
 tn_status tn_studio_folder_list(const tn_studio_folder *folder, tn_studio_files *list, tn_error *error);
 void tn_studio_files_clear(tn_studio_files *list);
 

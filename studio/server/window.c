@@ -2,18 +2,113 @@
 
 #include <limits.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "include/tartan/base.h"
-#include "lsp/background.h"
 #include "lsp/exchange.h"
-#include "runtime/base/clock.h"
+#include "lsp/review.h"
+#include "runtime/base/watch.h"
 #include "studio/desk/desk.h"
 #include "studio/server/file_requests.h"
+#include "studio/server/folder.h"
 #include "studio/server/question_queue.h"
-#include "studio/server/used_files.h"
+
+enum { TN_USED_MAX = 256 }; /* files that are noted; of more, changes show when a text is changed */
+
+typedef struct used_file {
+    char *name; /* below the folder */
+    tn_file_stamp stamp;
+} used_file;
+
+typedef struct used_files {
+    tn_studio_folder *folder; /* borrowed */
+    pthread_mutex_t lock;
+    used_file files[TN_USED_MAX];
+    size_t count;
+} used_files;
+
+/* ---- the files that a window's texts use, which need not be open in it
+ *
+ * What was read for it is noted, so that it can be told when somebody changes one. Several threads may read. */
+
+static void used_files_begin(used_files *used, tn_studio_folder *folder)
+{
+    *used = (used_files){.folder = folder};
+    pthread_mutex_init(&used->lock, NULL);
+}
+
+static void used_files_clear(used_files *used)
+{
+    for (size_t i = 0; i < used->count; i++)
+        free(used->files[i].name);
+    pthread_mutex_destroy(&used->lock);
+}
+
+/* Files that are not there are noted, too: they may come. */
+static void note(used_files *used, const char *name, const tn_file_stamp *stamp)
+{
+    pthread_mutex_lock(&used->lock);
+    size_t i = 0;
+    while (i < used->count && strcmp(used->files[i].name, name) != 0)
+        i++;
+    char *copy = i == used->count && i < TN_USED_MAX ? strdup(name) : NULL;
+    if (copy)
+        used->files[used->count++] = (used_file){copy, *stamp};
+    pthread_mutex_unlock(&used->lock);
+}
+
+static tn_status read_noted(void *context, const char *path, uint8_t **bytes, size_t *size, tn_error *error)
+{
+    used_files *used = context;
+    const char *name = path + (path[0] == '/');
+    /* before it is read: what is written meanwhile is a change */
+    tn_file_stamp stamp = tn_studio_folder_stamp(used->folder, name);
+    note(used, name, &stamp);
+    tn_served served = tn_studio_folder_served(used->folder);
+    return served.read(served.context, path, bytes, size, error);
+}
+
+static tn_status list(void *context, char ***paths, size_t *count, bool *cut_off, tn_error *error)
+{
+    used_files *used = context;
+    tn_served served = tn_studio_folder_served(used->folder);
+    return served.list(served.context, paths, count, cut_off, error);
+}
+
+/* The folder for those who compile, with what they read noted. */
+static tn_served used_files_served(used_files *used)
+{
+    return (tn_served){.read = read_noted, .list = list, .context = used};
+}
+
+/* Looks at the files from *next on (0 to begin with). The name of the next that has changed since it was read, or since
+ * the last look; the caller frees it. NULL: no other has, or out of memory. */
+static char *used_files_changed(used_files *used, size_t *next)
+{
+    char *changed = NULL;
+    pthread_mutex_lock(&used->lock);
+    while (!changed && *next < used->count) {
+        used_file *file = &used->files[(*next)++];
+        tn_file_stamp stamp = tn_studio_folder_stamp(used->folder, file->name);
+        if (memcmp(&stamp, &file->stamp, sizeof stamp) == 0)
+            continue;
+        file->stamp = stamp;
+        changed = strdup(file->name);
+    }
+    pthread_mutex_unlock(&used->lock);
+    return changed;
+}
+
+static bool used_files_any(used_files *used)
+{
+    pthread_mutex_lock(&used->lock);
+    bool any = used->count > 0;
+    pthread_mutex_unlock(&used->lock);
+    return any;
+}
 
 /* Error codes of JSON-RPC and of the Language Server Protocol. */
 enum { PARSE_ERROR = -32700, INVALID_REQUEST = -32600, INTERNAL_ERROR = -32603, REQUEST_FAILED = -32803 };
@@ -37,7 +132,7 @@ typedef struct parcel {
 struct tn_window {
     tn_windows *all;
     tn_outbox *outbox;
-    tn_used_files used;
+    used_files used;
     tn_served served;     /* which notes them */
     pthread_mutex_t lock; /* for what follows */
     pthread_cond_t texts_come, questions_come;
@@ -141,7 +236,7 @@ static void free_window(tn_window *w)
     tn_exchange_free(w->exchange);
     tn_desk_free(w->desk);
     tn_file_requests_clear(&w->files);
-    tn_used_files_clear(&w->used);
+    used_files_clear(&w->used);
     pthread_mutex_destroy(&w->lock);
     pthread_cond_destroy(&w->texts_come);
     pthread_cond_destroy(&w->questions_come);
@@ -264,7 +359,7 @@ static void begin_review(tn_window *w)
 
 static bool looks_at_files(tn_window *w)
 {
-    return w->files.watched_count > 0 || tn_used_files_any(&w->used);
+    return w->files.watched_count > 0 || used_files_any(&w->used);
 }
 
 /* Those who keep what they read of it are told, and so is the page, whose answers are old. */
@@ -289,7 +384,7 @@ static void look_at_files(tn_window *w)
         return;
     for (json_t *changed; (changed = tn_file_requests_changed(&w->files, &next));)
         tn_outbox_put(w->outbox, changed);
-    for (char *name; (name = tn_used_files_changed(&w->used, &next_used)); free(name))
+    for (char *name; (name = used_files_changed(&w->used, &next_used)); free(name))
         tell_of_file(w, name);
     w->look = tn_seconds() + LOOK_MILLISECONDS * 1e-3;
 }
@@ -475,8 +570,8 @@ tn_window *tn_window_open(tn_windows *windows, void (*woken)(void *context), voi
     w->all = windows;
     w->users = 1;
     w->last = &w->first;
-    tn_used_files_begin(&w->used, windows->folder);
-    w->served = tn_used_files_served(&w->used);
+    used_files_begin(&w->used, windows->folder);
+    w->served = used_files_served(&w->used);
     w->files = (tn_file_requests){.folder = windows->folder, .open = windows->open};
     pthread_mutex_init(&w->lock, NULL);
     begin_condition(&w->texts_come);

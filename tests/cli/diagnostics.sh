@@ -33,10 +33,12 @@ for plan in *.plan *.bnf *.hemls *.study *.field *.pcfg *.kit *.solid; do
     fi
 done
 [ "${1-}" != --update ] || exit 0
-# Every code that the front ends report is among them; solid.sh makes a design of too many boxes.
-names=$(grep -ohE '\b[EW]_[A-Z0-9_]+' ../../grammar/{plan,hemls,study,field,pcfg,kit,solid}.[ly] ../../compiler/{hemls,study,field,pcfg,kit,solid}/*.c \
-    ../../compiler/plan/{syntax,check}/*.c ../../compiler/common/{import,lexical}.c ../../driver/plan/analysis.c ../../driver/solid/report.c |
-    grep -v E_SOLID_TOO_MANY | sort -u)
+# Every code that the front ends report is among them, and every warning about a design; solid.sh makes a design of too many boxes.
+names=$({
+    grep -ohE '\b[EW]_[A-Z0-9_]+' ../../grammar/{plan,hemls,study,field,pcfg,kit,solid}.[ly] ../../compiler/{hemls,study,field,pcfg,kit,solid}/*.c \
+        ../../compiler/plan/{syntax,check}/*.c ../../compiler/common/{import,lexical}.c ../../driver/plan/analysis.c
+    grep -ohE '\bW_[A-Z0-9_]+' ../../driver/solid/solid.c
+} | grep -v E_SOLID_TOO_MANY | sort -u)
 missing=$(awk -v names="$names" '
     BEGIN {
         split(names, list, "\n")

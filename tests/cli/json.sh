@@ -7,4 +7,4 @@ set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-python3 "$here/json_strict.py" "$TARTAN" "$here/../../cli/common/commands.def" "$scratch"
+python3 "$here/json_strict.py" "$TARTAN" "$here/../../cli/commands.def" "$scratch"

@@ -1,11 +1,11 @@
-/* Answers of a program that scores, of any bytes: reading ends; what is understood is numbers or a reason, and what is shown of it can be
- * shown. */
+/* Answers of a program that scores, of any bytes: reading ends; what is understood is numbers or a reason, and what is
+ * shown of it can be shown. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "driver/program/answer.h"
+#include "driver/program/external.h"
 #include "tests/fuzz/fuzz.h"
 
 static void fail(const char *what)

@@ -4,11 +4,11 @@
 #include <gmp.h>
 #include <stdlib.h>
 
+#include "runtime/house/count/listing.h"
 #include "runtime/house/rank/rank.h"
+#include "runtime/house/rule/change.h"
 #include "runtime/house/schedule/cost.h"
 #include "runtime/house/schedule/describe.h"
-#include "runtime/house/variant/change.h"
-#include "runtime/house/variant/variant.h"
 #include "tests/fuzz/engines.h"
 
 enum {
@@ -59,7 +59,7 @@ static void measure(const tn_house *house, tn_house_rules *rules)
 
 typedef struct fuzzed {
     const tn_house_library_record *library;
-    tn_house_variants *variants;
+    tn_house_listing *variants;
     tn_house_rules *rules;
     const tn_tray *trays;
     size_t length;
@@ -72,7 +72,7 @@ static tn_status check_change(void *context, const tn_house_change *change, cons
     mpz_t number;
     (void)change;
     mpz_init(number);
-    tn_status status = tn_house_variants_rank(f->variants, changed, number, error);
+    tn_status status = tn_house_listing_number(f->variants, changed, number, error);
     mpz_clear(number);
     if (status == TN_INVALID)
         fuzz_broken("a change of a house leaves its library");
@@ -86,10 +86,10 @@ static void check_house(fuzzed *f, const mpz_t number)
     bool kept = false;
     mpz_t again;
     mpz_init(again);
-    tn_status status = tn_house_variants_at(f->variants, f->trays, f->length, number, &house, &error);
+    tn_status status = tn_house_listing_at(f->variants, f->trays, f->length, number, &house, &error);
     if (status == TN_INVALID)
         fuzz_broken("a house that is counted has no number");
-    if (status == TN_OK && tn_house_variants_rank(f->variants, &house, again, &error) == TN_OK &&
+    if (status == TN_OK && tn_house_listing_number(f->variants, &house, again, &error) == TN_OK &&
         mpz_cmp(number, again) != 0)
         fuzz_broken("a house's number is another");
     if (status == TN_OK && tn_house_rules_start(f->rules, &house, &error) == TN_OK) {
@@ -139,9 +139,9 @@ void fuzz_houses_on(const tn_house_form *form, const tn_house_library_record *li
     if (!is_small(form, trays, length))
         return;
     tn_house_counts_init(&counts);
-    if (tn_house_variants_new(form, library, WORK, &f.variants, &error) == TN_OK &&
+    if (tn_house_listing_new(form, library, WORK, &f.variants, &error) == TN_OK &&
         tn_house_rules_new(form, 0, &f.rules, &error) == TN_OK &&
-        tn_house_variants_count(f.variants, trays, length, &counts, &error) == TN_OK) {
+        tn_house_listing_count(f.variants, trays, length, &counts, &error) == TN_OK) {
         if (plans)
             check_together(&f, form, plans, &counts);
         if (mpz_sgn(counts.houses) > 0) {
@@ -152,7 +152,7 @@ void fuzz_houses_on(const tn_house_form *form, const tn_house_library_record *li
         }
     }
     tn_house_rules_free(f.rules);
-    tn_house_variants_free(f.variants);
+    tn_house_listing_free(f.variants);
     tn_house_counts_clear(&counts);
 }
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "driver/plan/clauses.h"
+#include "driver/plan/library.h"
 #include "driver/report/report.h"
 #include "runtime/base/random.h"
 #include "runtime/plan/library/diff.h"

@@ -5,10 +5,10 @@
 #include <string.h>
 
 #include "runtime/base/bytes.h"
-#include "runtime/growth/model/records.h"
+#include "runtime/growth/model/system.h"
 #include "runtime/load.h"
+#include "runtime/number/formula.h"
 #include "runtime/number/run.h"
-#include "runtime/number/sentence.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/text.h"
 

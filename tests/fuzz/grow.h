@@ -8,6 +8,7 @@
 
 #include "runtime/geometry/write.h"
 #include "runtime/growth/faults.h"
+#include "runtime/growth/growth.h"
 #include "runtime/growth/picture/draw.h"
 #include "runtime/growth/stats.h"
 #include "runtime/growth/study.h"

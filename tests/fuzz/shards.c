@@ -6,9 +6,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "driver/shards/claim.h"
 #include "driver/shards/manifest.h"
 #include "driver/shards/record.h"
+#include "driver/shards/run.h"
 #include "tests/fuzz/fuzz.h"
 
 #define OWN_SET "00000000000000000000000000000000" /* whose the records of the corpus are */

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "compiler/compile.h"
-#include "driver/open/attached.h"
 #include "driver/open/files.h"
+#include "driver/open/open.h"
 #include "runtime/base/file.h"
 
 typedef struct library_folders {

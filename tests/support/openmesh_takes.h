@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-#include "runtime/base/codes.h"
+#include "runtime/base/error.h"
 #include "runtime/mesh/openmesh.h"
 
 /* Does OpenMesh take every face? Yes in a build without it, which tests nothing. */

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "runtime/base/bytes.h"
-#include "runtime/numeric/numeric.h"
 #include "runtime/base/random.h"
+#include "runtime/math/elementary.h"
 
 uint64_t test_draw(test_random *random, uint64_t below)
 {

@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compiler/common/emit_sources.h"
 #include "compiler/common/import.h"
 #include "compiler/common/lexical.h"
 #include "compiler/common/notation.h"

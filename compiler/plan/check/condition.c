@@ -5,7 +5,7 @@
 #include "compiler/common/limits.h"
 #include "compiler/plan/check/amount.h"
 #include "compiler/plan/check/check.h"
-#include "runtime/base/length_style.h"
+#include "runtime/base/length.h"
 
 /* ---- conditions that are always or never true
  *

@@ -4,7 +4,7 @@
 
 #include "compiler/common/limits.h"
 #include "compiler/plan/check/form.h"
-#include "runtime/base/length_style.h"
+#include "runtime/base/length.h"
 
 static const char *const part_words[] = {"storey", "spine", "wall", "partition", "deck", "roof"};
 

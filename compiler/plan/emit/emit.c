@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "compiler/common/emit_sources.h"
+#include "compiler/common/import.h"
 #include "compiler/common/limits.h"
 
 void tn_emit_begin(tn_emit *emit, uint32_t schema)

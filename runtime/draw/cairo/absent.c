@@ -1,5 +1,5 @@
 /* PNG and PDF pictures in a build without the part `draw`: there are none. */
-#include "runtime/base/part.h"
+#include "runtime/base/error.h"
 #include "runtime/draw/cairo/cairo.h"
 
 static tn_status refuse(const char *wanted, tn_device **device, tn_error *error)

@@ -16,7 +16,7 @@ typedef struct tn_cairo_options {
 } tn_cairo_options;
 
 /* Begins a picture with white ground, which is written to the stream; that stays the caller's. The watch, which may be
- * NULL, ends writing once it says so. E0820 where a PNG would be too large; TN_MEMORY; in a build without the part
+ * NULL, ends writing once it says so. E0820 if a PNG would be too large; TN_MEMORY; in a build without the part
  * `draw` TN_INVALID (E0907). Free the device in any case. */
 tn_status tn_png_new(FILE *out, const tn_cairo_options *options, tn_watch *watch, tn_device **device, tn_error *error);
 tn_status tn_pdf_new(FILE *out, const tn_cairo_options *options, tn_watch *watch, tn_device **device, tn_error *error);

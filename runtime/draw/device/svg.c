@@ -8,7 +8,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/base/utf8.h"
-#include "runtime/numeric/numeric.h"
+#include "runtime/math/elementary.h"
 
 #define THOUSAND 1000.0
 #define LARGEST 1e9 /* of a coordinate, in points: far beyond any page */

@@ -9,7 +9,7 @@
 #include "runtime/base/array.h"
 #include "runtime/base/buffer.h"
 #include "runtime/base/bytes.h"
-#include "runtime/genome/breeding/normal.h"
+#include "runtime/genome/breeding/chance.h"
 #include "runtime/module/values.h"
 
 #define GENES TN_BOX_GENES

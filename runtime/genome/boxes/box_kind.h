@@ -8,7 +8,7 @@
 #define TARTAN_GENOME_BOXES_BOX_KIND_H
 
 #include "runtime/genome/breeding/kind.h"
-#include "runtime/geometry/union/box_genes.h"
+#include "runtime/geometry/union/cut_box.h"
 
 /* What designs are bred with: all of it the caller's, and there as long as the kind. */
 typedef struct tn_box_breeding {
@@ -27,7 +27,7 @@ tn_genome_kind tn_box_kind(tn_box_breeding *breeding);
 double tn_box_gene(const tn_box_breeding *breeding, uint32_t gene, double value);
 
 /* Splits box `at` of a genome across an axis in two that take the same room: the halves stand in its place and at the
- * end of the list. False where out of memory. */
+ * end of the list. False if out of memory. */
 bool tn_box_split(tn_genome *genome, uint32_t at, int axis);
 
 #endif

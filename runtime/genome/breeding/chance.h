@@ -3,9 +3,11 @@
 #ifndef TARTAN_GENOME_BREEDING_CHANCE_H
 #define TARTAN_GENOME_BREEDING_CHANCE_H
 
+#include <math.h>
 #include <stdbool.h>
 
 #include "runtime/base/random.h"
+#include "runtime/math/elementary.h"
 
 typedef enum tn_purpose {
     TN_PURPOSE_INITIALISE = 1, /* number: the individual */
@@ -38,7 +40,7 @@ static inline uint64_t tn_chance_next(tn_chance *chance)
     return tn_random64(chance->seed, chance->stream, chance->index++);
 }
 
-/* Evenly from 0 to bound - 1; 0 where bound is 0. (The bias is under bound / 2^64.) */
+/* Evenly from 0 to bound - 1; 0 if bound is 0. (The bias is under bound / 2^64.) */
 static inline uint64_t tn_chance_below(tn_chance *chance, uint64_t bound)
 {
     return (uint64_t)((__extension__(unsigned __int128) tn_chance_next(chance) * bound) >> 64);
@@ -53,6 +55,15 @@ static inline double tn_chance_unit(tn_chance *chance)
 static inline bool tn_chance_is(tn_chance *chance, double probability)
 {
     return tn_chance_unit(chance) < probability;
+}
+
+/* Draws from the normal distribution. */
+
+/* Of mean 0 and deviation 1, by two draws (Box and Muller, 1958). */
+static inline double tn_chance_normal(tn_chance *chance)
+{
+    double radius = sqrt(-2 * tn_log(1 - tn_chance_unit(chance)));
+    return radius * tn_cos(6.283185307179586 * tn_chance_unit(chance));
 }
 
 #endif

@@ -1,5 +1,5 @@
 /* Makes, breeds and maps strings of codons for evolution. */
-#include "runtime/genome/breeding/codon_kind.h"
+#include "runtime/genome/breeding/evolve_state.h"
 
 #include <stdlib.h>
 

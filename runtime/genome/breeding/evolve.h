@@ -46,7 +46,7 @@ typedef struct tn_evaluator {
     size_t objectives;
     tn_status (*evaluate)(void *context, unsigned thread, const char *sentence, size_t size, tn_score *score,
                           char message[200], tn_error *error);
-    /* Changes a target or weight, "NAME VALUE ..."; NULL where nothing can be changed. Never while evaluating. */
+    /* Changes a target or weight, "NAME VALUE ..."; NULL if nothing can be changed. Never while evaluating. */
     tn_status (*adjust)(void *context, const char *change, tn_error *error);
     tn_status (*evaluate_many)(void *context, unsigned thread, struct tn_individual *const *individuals, size_t count,
                                tn_error *error); /* or NULL */
@@ -129,7 +129,7 @@ typedef struct tn_individual {
 typedef struct tn_generation_stats {
     uint32_t generation;
     double best[TN_OBJECTIVES_MAX];                /* the best of each objective */
-    double mean;                                   /* of objective 0, of those scored; 0 where there is none */
+    double mean;                                   /* of objective 0, of those scored; 0 if there is none */
     double quartiles[3];                           /* likewise: the lower, the median and the upper */
     uint32_t scored, no_sentence, failed, limited; /* of the members */
     uint32_t distinct;                             /* sentences among the members */
@@ -166,7 +166,7 @@ typedef struct tn_chosen {
 } tn_chosen;
 
 /* The parents of the next generation, chosen by a person, each as often as it shall have children. They are used for
- * the next step only. TN_INVALID (E1232) where there are islands. */
+ * the next step only. TN_INVALID (E1232) if there are islands. */
 tn_status tn_evolution_choose(tn_evolution *evolution, const tn_chosen *chosen, size_t count, tn_error *error);
 
 /* From here on genomes are remembered. Before the first step. */
@@ -174,20 +174,20 @@ void tn_evolution_remember(tn_evolution *evolution);
 
 /* A person's genome becomes a member at once, in the place of the member with the id `out`, or where there is room
  * (tn_evolution_worst) TN_NO_PARENT. `parent`: the id of whom it was made from by hand, or TN_NO_PARENT. It is a score
- * that is recalled, where scores are. TN_INVALID (E1241) where there is no such member. */
+ * that is recalled, where scores are. TN_INVALID (E1241) if there is no such member. */
 tn_status tn_evolution_insert(tn_evolution *evolution, const tn_genome *genome, uint64_t out, uint64_t parent,
                               tn_error *error);
 
-/* A member is one no more, and the next generation is bred without it. TN_INVALID (E1241) where there is no such
+/* A member is one no more, and the next generation is bred without it. TN_INVALID (E1241) if there is no such
  * member, or as few as can be. */
 tn_status tn_evolution_remove(tn_evolution *evolution, uint64_t id, tn_error *error);
 
-/* The id of the worst member, or TN_NO_PARENT where there are fewer than the population. */
+/* The id of the worst member, or TN_NO_PARENT if there are fewer than the population. */
 uint64_t tn_evolution_worst(const tn_evolution *evolution);
 
 /* From here on the population has another size; where it is smaller, the best members stay. Of a change that is made
  * again, `left` are the ids of those that left then, in ascending order, and they leave; otherwise it is NULL.
- * TN_INVALID (E1240) where it cannot. */
+ * TN_INVALID (E1240) if it cannot. */
 tn_status tn_evolution_resize(tn_evolution *evolution, uint32_t population, const uint64_t *left, size_t left_count,
                               tn_error *error);
 

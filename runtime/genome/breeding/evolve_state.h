@@ -1,23 +1,44 @@
 /* A run of evolution as its parts see it. Of no use elsewhere.
  *
- * evolve.c        moves it on, generation by generation
- * evolve_choice.c takes parents that a person chose, and remembers genomes for that
- * evolve_person.c takes individuals that a person inserts, and takes others out
- * evolve_island.c keeps its islands
- * evolve_birth.c  makes genomes and their sentences
- * evolve_copies.c makes others where one is a copy
- * evolve_score.c  gives them their scores
- * evolve_cases.c  gives them their errors in single cases
- * evolve_share.c  shares that among several processes
- * evolve_stats.c  looks at it
+ * - evolve.c: moves it on, generation by generation; keeps its islands, shares births and scores among several
+ *   processes, and looks at it;
+ * - evolve_birth.c: takes parents, also those that a person chose; makes genomes and their sentences, and others in
+ *   place of copies;
+ * - evolve_score.c: gives them their scores, and their errors in single cases;
+ * - evolve_person.c: takes individuals that a person inserts, and takes others out.
  */
 #ifndef TARTAN_GENOME_BREEDING_EVOLVE_STATE_H
 #define TARTAN_GENOME_BREEDING_EVOLVE_STATE_H
 
 #include "runtime/base/crew.h"
-#include "runtime/genome/breeding/codon_kind.h"
-#include "runtime/genome/breeding/lexicase.h"
-#include "runtime/genome/breeding/score_cache.h"
+#include "runtime/base/hash_table.h"
+#include "runtime/genome/breeding/evolve.h"
+#include "runtime/genome/breeding/select.h"
+
+/* Scores by sentence, so that no sentence is evaluated twice in a run. Sentences are known by 128 bits of hash. */
+
+typedef struct tn_cached_score {
+    uint64_t hash[2];
+    tn_score score;
+} tn_cached_score;
+
+typedef struct tn_score_cache {
+    tn_cached_score *entries;
+    size_t count, capacity;
+    tn_hash_table index;
+} tn_score_cache;
+
+void tn_score_cache_clear(tn_score_cache *cache);
+
+/* Strings of codons as a kind of genome: a grammar maps them to sentences. */
+
+/* Borrows the grammar and copies the settings. Free the kind in any case. */
+tn_status tn_codon_kind_new(const tn_grammar *grammar, const tn_evolution_settings *settings, tn_genome_kind *kind,
+                            tn_error *error);
+void tn_codon_kind_free(tn_genome_kind *kind);
+
+/* From here on children vary so. */
+void tn_codon_kind_vary(tn_genome_kind *kind, const tn_vary_options *vary);
 
 /* A parent that a person chose. */
 typedef struct tn_chosen_parent {
@@ -78,15 +99,8 @@ void tn_evolution_free_arrays(tn_evolution *evolution);
 
 size_t tn_island_size(const tn_evolution *evolution);
 
-/* NULL: out of memory. Frees with tn_islands_free. */
-bool tn_islands_make(tn_evolution *evolution);
-void tn_islands_free(tn_evolution *evolution);
-
 /* The best `keep` of `count` individuals become the island's members, the best first. `from` is not its own array. */
 void tn_island_keep_best(tn_evolution *evolution, tn_island *island, tn_individual **from, size_t count, size_t keep);
-
-/* The best of each island move to the next one, and those of the last to the first. */
-void tn_islands_migrate(tn_evolution *evolution);
 
 /* Puts the members of all islands in one order, after the islands' own have changed. */
 void tn_islands_order(tn_evolution *evolution);
@@ -108,18 +122,6 @@ tn_brood tn_evolution_pair(const tn_evolution *evolution, size_t pair);
  * on, are in the next generation, too, so that none of those born should have their sentences. */
 tn_status tn_evolution_make(tn_evolution *evolution, bool first, size_t staying, tn_error *error);
 
-/* One genome of the first generation, and the children of one pair of parents (the second child may be NULL), without
- * sentences. The parents are the same in each attempt, the other draws are not. */
-tn_status tn_evolution_first_genome(tn_evolution *evolution, unsigned thread, size_t number, unsigned attempt,
-                                    tn_individual *individual, tn_error *error);
-tn_status tn_evolution_breed_pair(tn_evolution *evolution, unsigned thread, size_t pair, unsigned attempt,
-                                  tn_individual *const children[2], tn_error *error);
-
-/* Of the pairs [begin, end), or of the first generation's individuals: breeds those again that have the sentence of
- * another before them, or of the first `staying` of the pool. Who has none in a few attempts that is new is a copy. */
-tn_status tn_evolution_breed_copies_again(tn_evolution *evolution, bool first, size_t begin, size_t end, size_t staying,
-                                          tn_error *error);
-
 /* Turns an individual's genome into its sentence. */
 tn_status tn_evolution_write(tn_evolution *evolution, unsigned thread, tn_individual *individual, tn_error *error);
 
@@ -133,9 +135,6 @@ void tn_evolution_part_from_guests(tn_evolution *evolution);
 tn_status tn_evolution_keep_genome(tn_evolution *evolution, const tn_individual *individual, tn_error *error);
 
 bool tn_genome_take(tn_genome *to, const tn_genome *from);
-
-/* The genome of a chosen parent. */
-const tn_genome *tn_evolution_chosen_genome(const tn_evolution *evolution, const tn_chosen_parent *parent);
 
 /* Puts the chosen parents into the pool, each once, at most half a population: those that are no members any more come
  * back. Returns how many in *count. */

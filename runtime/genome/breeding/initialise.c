@@ -1,12 +1,12 @@
 /* Makes first populations. */
-#include "runtime/genome/breeding/initialise.h"
+#include "runtime/genome/breeding/vary.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/genome/mapping/sentential.h"
-#include "runtime/genome/mapping/span.h"
+#include "runtime/genome/mapping/genome.h"
+#include "runtime/genome/mapping/mapper.h"
 
 #define NODES_MAX 100000u /* of one tree: loops and wide productions can make more than a depth limit bounds */
 
@@ -129,7 +129,7 @@ static bool body_fits(const planter *p, uint32_t at, uint32_t end, uint32_t dept
 }
 
 /* The word of a non-terminal by which the production gets as deep as a branch must, one that is written in any case
- * where there is one; TN_NO_RECORD where there is none. */
+ * where there is one; TN_NO_RECORD if there is none. */
 static uint32_t find_way(const planter *p, uint32_t production, uint32_t depth)
 {
     const tn_grammar *g = p->grammar;
@@ -162,7 +162,7 @@ static bool meets(const planter *p, uint32_t production, uint32_t depth, unsigne
            (!(demands & WAY) || find_way(p, production, depth) != TN_NO_RECORD);
 }
 
-/* One of the productions that meet the demands, each as likely; TN_NO_RECORD where there is none. */
+/* One of the productions that meet the demands, each as likely; TN_NO_RECORD if there is none. */
 static uint32_t draw(planter *p, uint32_t rule, uint32_t depth, unsigned demands)
 {
     const tn_rule *r = &p->grammar->rules[rule];

@@ -14,7 +14,7 @@
  *
  * Genomes that come from files are read by whoever knows the notation (the driver), and given as seeds.
  *
- * There are three kinds: strings of codons, which a grammar maps (codon_kind.h); expressions of fields as trees
+ * There are three kinds: strings of codons, which a grammar maps (codon_kind.c); expressions of fields as trees
  * (runtime/genome/tree); and lists of boxes (runtime/genome/boxes).
  */
 #ifndef TARTAN_GENOME_BREEDING_KIND_H
@@ -26,7 +26,7 @@
 
 typedef struct tn_parent {
     const tn_genome *genome;
-    uint64_t used; /* codons that mapping read; 0 where it is not valid (then all count) */
+    uint64_t used; /* codons that mapping read; 0 if it is not valid (then all count) */
     double weight; /* how much of it the children shall have: 1, or less; of codons, nobody asks */
 } tn_parent;
 
@@ -60,7 +60,7 @@ typedef struct tn_written {
 
 typedef struct tn_genome_kind {
     void *context; /* whoever made the kind owns it; workplaces borrow it, and none changes it */
-    void *(*workplace_new)(const void *context); /* NULL where out of memory */
+    void *(*workplace_new)(const void *context); /* NULL if out of memory */
     void (*workplace_free)(void *workplace);
     tn_status (*first)(void *workplace, uint64_t number, tn_chance *chance, tn_genome *genome, tn_birth *birth,
                        tn_error *error);

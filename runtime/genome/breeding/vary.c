@@ -156,7 +156,7 @@ static tn_status find_subtrees(tn_breeder *b, int which, const tn_genome *genome
     return well && tn_spans_find(&mapping, &b->spans[which]) ? TN_OK : tn_fail_memory(error);
 }
 
-/* The codons of a subtree, changed so that they make the same choices at another depth; false where they cannot. */
+/* The codons of a subtree, changed so that they make the same choices at another depth; false if they cannot. */
 static bool moved(tn_breeder *b, int which, const tn_span_of *span, uint32_t depth, tn_genome *part, bool *well)
 {
     part->count = 0;

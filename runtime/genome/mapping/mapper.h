@@ -10,6 +10,10 @@
 #ifndef TARTAN_GENOME_MAPPING_MAPPER_H
 #define TARTAN_GENOME_MAPPING_MAPPER_H
 
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
 #include "runtime/grammar/grammar.h"
 
 typedef struct tn_mapping_options {
@@ -64,7 +68,7 @@ typedef struct tn_event {
     uint32_t
         symbol; /* EXPAND, END: rule; TERMINAL: terminal; EDGE: 1 for a new edge type; AGAIN, STOP: rounds so far */
     uint32_t production; /* EXPAND */
-    uint64_t read;       /* how many codons were read before this step's own; TN_NO_READ where it reads none */
+    uint64_t read;       /* how many codons were read before this step's own; TN_NO_READ if it reads none */
     uint64_t codon;
     uint64_t modulus, value; /* value = codon mod modulus */
     size_t text_begin;       /* in the sentence written so far */
@@ -96,11 +100,11 @@ typedef struct tn_mapping {
 
 typedef struct tn_mapper tn_mapper;
 
-/* Borrows the grammar. NULL where out of memory. */
+/* Borrows the grammar. NULL if out of memory. */
 tn_mapper *tn_mapper_new(const tn_grammar *grammar);
 void tn_mapper_free(tn_mapper *mapper);
 
-/* Derives the genome's sentence. TN_OK also where the result is not valid; TN_MEMORY where memory ran out. */
+/* Derives the genome's sentence. TN_OK also where the result is not valid; TN_MEMORY if memory ran out. */
 tn_status tn_mapper_derive(tn_mapper *mapper, const uint64_t *codons, size_t count, const tn_mapping_options *options,
                            tn_mapping *mapping, tn_error *error);
 
@@ -110,5 +114,33 @@ static inline const char *tn_mapping_sentence(const tn_mapping *mapping, size_t 
     *size = mapping->repaired ? mapping->repaired_size : mapping->phenotype_size;
     return mapping->repaired ? mapping->repaired_phenotype : mapping->phenotype;
 }
+
+/* The non-terminals of a sentential form, from left to right: any one is taken out by its place, and what replaces it
+ * is put there. In blocks, so that a form of a million non-terminals is not moved for each. */
+
+#define TN_SENTENTIAL_BLOCK 1024u
+
+typedef struct tn_sentential_block {
+    size_t count;
+    uint32_t items[TN_SENTENTIAL_BLOCK];
+} tn_sentential_block;
+
+typedef struct tn_sentential {
+    tn_sentential_block **blocks; /* owned: block_count in use, and behind them spare ones up to block_made */
+    size_t block_count, block_made, block_capacity;
+    size_t count;
+    size_t block, place; /* where the next item is put */
+} tn_sentential;
+
+void tn_sentential_clear(tn_sentential *pending);
+
+/* Empties it; its memory is used again. */
+void tn_sentential_reset(tn_sentential *pending);
+
+/* Takes out the item at `place`, which is below `count`. What is put next stands there. */
+uint32_t tn_sentential_take(tn_sentential *pending, size_t place);
+
+/* Puts an item behind what was put last. false if out of memory. */
+bool tn_sentential_put(tn_sentential *pending, uint32_t item);
 
 #endif

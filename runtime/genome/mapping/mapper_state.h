@@ -1,11 +1,10 @@
 /* What the parts of mapping share: the mapper's scratch memory, how a genome is read, and how steps are recorded. Of no
  * use elsewhere.
  *
- * mapper.c     one mapping from begin to end
- * expand.c     the machine for both dialects, with and without recording
- * expand_ge.c  the same for what is derived most: the ge dialect, nothing recorded
- * expand_places.c  position-independent mapping, where codons say which non-terminal comes next
- * repair.c     rules for edge types that have none
+ * - mapper.c: one mapping from begin to end;
+ * - expand.c: the machine for both dialects, with and without recording; the same for what is derived most (the ge
+ *   dialect, nothing recorded); position-independent mapping, where codons say which non-terminal comes next; and rules
+ *   for edge types that have none.
  */
 #ifndef TARTAN_GENOME_MAPPING_MAPPER_STATE_H
 #define TARTAN_GENOME_MAPPING_MAPPER_STATE_H
@@ -14,7 +13,6 @@
 
 #include "runtime/base/array.h"
 #include "runtime/genome/mapping/mapper.h"
-#include "runtime/genome/mapping/sentential.h"
 
 #define TN_NO_EDGE_ID UINT32_MAX
 #define TN_COPY 16u      /* short terminals are copied by this many bytes at once */
@@ -126,15 +124,9 @@ static inline bool tn_pay_for_text(uint64_t *steps, size_t length)
 /* Expands a rule at that depth to the end of the text. */
 tn_expansion tn_mapper_expand(tn_mapper *mapper, uint32_t rule, uint32_t depth, bool recorded);
 
-/* What tn_mapper_expand(mapper, 0, 1, false) does of a ge grammar, faster. */
-tn_expansion tn_mapper_expand_ge(tn_mapper *mapper);
-
 /* The whole of a position-independent mapping. Where it is not valid and recorded, the events are those of what was
  * derived. */
 tn_expansion tn_mapper_expand_places(tn_mapper *mapper, bool recorded);
-
-/* While repairing: an edge type occurs for the first time. */
-bool tn_repair_waits(tn_mapper *mapper, uint32_t id);
 
 /* Gives every edge type that occurs a rule: the sentence with them is in mapper->repaired (5.1). */
 tn_expansion tn_mapper_repair(tn_mapper *mapper, const tn_mapping_options *options);

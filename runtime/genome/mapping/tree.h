@@ -35,7 +35,7 @@ typedef void tn_tree_visit(void *context, uint32_t node, uint32_t depth);
 void tn_tree_walk(const tn_tree *tree, tn_tree_visit *enter, tn_tree_visit *leave, void *context);
 
 /* One line a codon, in the order in which they were read: its number, the codon, what read it, and what it chose. false
- * where writing failed. */
+ * if writing failed. */
 bool tn_trace_write(const tn_grammar *grammar, const tn_event *events, size_t count, FILE *out);
 
 /* One node a line, indented. */

@@ -5,10 +5,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "runtime/draw/axis.h"
 #include "runtime/draw/canvas.h"
+#include "runtime/draw/scales.h"
 #include "runtime/draw/type.h"
-#include "runtime/numeric/numeric.h"
+#include "runtime/math/elementary.h"
 
 /* In points. */
 #define WIDTH 640.0

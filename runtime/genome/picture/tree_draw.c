@@ -25,7 +25,7 @@ typedef struct drawing {
     double *x, *half, *left; /* by node: centre, half of its label's width, where its room begins */
     double right;            /* where the room of what is placed so far ends */
     uint32_t last;           /* the node entered last */
-    uint32_t *depth;         /* by node; UINT32_MAX where it is not drawn */
+    uint32_t *depth;         /* by node; UINT32_MAX if it is not drawn */
     double width;
     uint32_t deepest;
     uint32_t row; /* levels above the tree that is being placed */

@@ -1,6 +1,6 @@
 /* Databases of runs in a build without the part `store`: none can be made or opened, so that there is never one to ask.
  */
-#include "runtime/base/part.h"
+#include "runtime/base/error.h"
 #include "runtime/genome/store/run_store.h"
 
 static tn_status absent(tn_error *error)

@@ -7,7 +7,7 @@
  *   birth       id, kind, parent, other, state, fitness, more (the further numbers of the score, 8 bytes each), message
  *   event       generation, number, kind, text, before that generation is bred: choose (places, from 1), set (a target,
  *               weight or another number), left (who left by the change before it), inputs (what scores depend on),
- *               insert, edit and remove (driver/hand/by_hand.h); warning (what the first generation shows)
+ *               insert, edit and remove (driver/hand/hand.h); warning (what the first generation shows)
  *   rescore     generation, id, state, fitness, more: the members' scores after a set
  *
  * Genomes are not stored: births are functions of parents, settings and seed, and replaying is exact. Nothing stored
@@ -21,23 +21,23 @@
 
 typedef struct tn_run_store tn_run_store;
 
-/* Makes a new database; TN_INVALID (E1250) where the file is there already. `durable` also survives the loss of power.
+/* Makes a new database; TN_INVALID (E1250) if the file is there already. `durable` also survives the loss of power.
  */
 tn_status tn_run_store_create(const char *path, bool durable, tn_run_store **store, tn_error *error);
 
-/* Opens one that is there, to go on with (or only to read). TN_IO where it is not, TN_INVALID (E1251) where it is none.
+/* Opens one that is there, to go on with (or only to read). TN_IO if it is not, TN_INVALID (E1251) if it is none.
  */
 tn_status tn_run_store_open(const char *path, bool durable, bool read_only, tn_run_store **store, tn_error *error);
 void tn_run_store_free(tn_run_store *store);
 
-/* Does the file hold a run that has begun, or one that was killed before it did? TN_INVALID (E1251) where it is
+/* Does the file hold a run that has begun, or one that was killed before it did? TN_INVALID (E1251) if it is
  * something else, or damaged. */
 tn_status tn_run_store_begun(const char *path, bool *begun, tn_error *error);
 
 /* All meta values are written in one transaction, before the first generation. */
 tn_status tn_run_store_put_meta(tn_run_store *store, const char *const *keys, const char *const *values, size_t count,
                                 tn_error *error);
-/* The caller frees *value; NULL where there is none. */
+/* The caller frees *value; NULL if there is none. */
 tn_status tn_run_store_get_meta(tn_run_store *store, const char *key, char **value, tn_error *error);
 
 /* Why an individual that was evaluated had no score; empty where nothing is known of that. */
@@ -77,7 +77,7 @@ void tn_run_events_free(tn_run_event *events, size_t count);
 /* All scores, for tn_evolution_recall. */
 typedef struct tn_run_scores {
     tn_score *scores;       /* by id; owned */
-    uint64_t (*parents)[2]; /* owned; TN_NO_PARENT where there is none; NULL: not known here */
+    uint64_t (*parents)[2]; /* owned; TN_NO_PARENT if there is none; NULL: not known here */
     uint8_t *known;
     size_t count;
 } tn_run_scores;
@@ -87,7 +87,7 @@ void tn_run_scores_clear(tn_run_scores *scores);
 bool tn_run_scores_recall(void *scores, uint64_t id, tn_score *score);
 bool tn_run_scores_recall_parents(void *scores, uint64_t id, uint64_t parents[2]);
 
-/* Are these the members that the stored generation has, in this order? TN_INVALID (E1252) where not: then the database
+/* Are these the members that the stored generation has, in this order? TN_INVALID (E1252) if not: then the database
  * is of another study, grammar or version. */
 tn_status tn_run_store_check(tn_run_store *store, const tn_evolution *evolution, tn_error *error);
 

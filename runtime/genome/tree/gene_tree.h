@@ -10,6 +10,7 @@
 #ifndef TARTAN_GENOME_TREE_GENE_TREE_H
 #define TARTAN_GENOME_TREE_GENE_TREE_H
 
+#include "runtime/genome/breeding/chance.h"
 #include "runtime/genome/mapping/genome.h"
 
 /* What may be exchanged for what: operators for operators, what holds a value for what holds one, commas for nothing.
@@ -89,7 +90,7 @@ typedef struct tn_gene_tree {
 
 void tn_gene_tree_clear(tn_gene_tree *tree);
 
-/* Reads a genome; `constants`: how many the table has. TN_INVALID (E1251) where it is no tree. */
+/* Reads a genome; `constants`: how many the table has. TN_INVALID (E1251) if it is no tree. */
 tn_status tn_gene_tree_read(const tn_genome *genome, uint32_t constants, tn_gene_tree *tree, tn_error *error);
 tn_status tn_gene_tree_write(const tn_gene_tree *tree, tn_genome *genome, tn_error *error);
 
@@ -99,7 +100,25 @@ tn_status tn_gene_tree_copy(const tn_gene_tree *tree, tn_gene_tree *copy, tn_err
 tn_status tn_gene_tree_graft(const tn_gene_tree *tree, uint32_t at, const tn_gene_tree *other, uint32_t from,
                              tn_gene_tree *child, tn_error *error);
 
-/* Works out sizes, depths and height again after symbols changed. */
-void tn_gene_tree_measure(tn_gene_tree *tree);
+/* Picking the node of a tree at which it is crossed or mutated.
+ *
+ * A node at depth H of a tree of height Hmax is taken with probability H / Hmax * maxprob (Evolutionary surfaces,
+ * 2.2.1), so that the larger maxprob is, the more is exchanged. The tree is walked from its root on until a node is
+ * taken; a walk that takes none begins again. The root is taken only where there is nothing else, and a comma never. */
+
+typedef enum tn_pick_order {
+    TN_PICK_FAIR,     /* a node before what is below it, and a fair draw says which operand comes first */
+    TN_PICK_PREORDER, /* the left operand always first */
+    TN_PICK_LEVEL,    /* by depth */
+    TN_PICK_ROULETTE, /* no walk: in proportion to the depth */
+    TN_PICK_COUNT
+} tn_pick_order;
+
+#define TN_PICK_NONE UINT32_MAX
+#define TN_PICK_ANY TN_CLASS_COMMA /* either class */
+
+/* The node taken among those of a class, or TN_PICK_NONE if none can be. */
+uint32_t tn_pick_node(const tn_gene_tree *tree, tn_pick_order order, double maxprob, tn_gene_class wanted,
+                      tn_chance *chance);
 
 #endif

@@ -1,8 +1,8 @@
 /* Which faces hide which: the order in which a picture of them is painted.
  *
  * Painting nearer faces over farther ones shows what is visible - once there is such an order. Faces that overlap in
- * the picture are compared where they do (overlap.c), and an order is made of that (order.c). Faces that pass through
- * one another, or lie over one another in a circle, have none: they are cut into pieces that have (cut.c). The result
+ * the picture are compared where they do (overlap.c), and an order is made of that. Faces that pass through
+ * one another, or lie over one another in a circle, have none: they are cut into pieces that have. The result
  * is exact for flat faces; a warped one is compared and cut by the triangles that fill it.
  *
  * Costs: comparisons grow with the overlaps in the picture; only faces without an order are cut, which can take the
@@ -36,7 +36,7 @@ typedef struct tn_painting {
     size_t patch_count, patch_room;
     double (*points)[3]; /* corners of pieces */
     uint32_t *sides;     /* [corner of pieces] the corner of the scene where the side of the face starts that leaves the
-                            corner, or TN_CUT where the face was cut */
+                            corner, or TN_CUT if the face was cut */
     size_t corner_count, corner_room;
     uint32_t by_depth; /* faces painted by their depth, since cutting them would take too many pieces */
 } tn_painting;

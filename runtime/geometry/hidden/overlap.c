@@ -6,7 +6,7 @@
 #include "runtime/base/array.h"
 #include "runtime/base/crew.h"
 #include "runtime/base/watch.h"
-#include "runtime/geometry/hidden/hidden_parts.h"
+#include "runtime/geometry/hidden/overlap.h"
 #include "runtime/geometry/vector.h"
 
 #define LEAF 24u       /* as many triangles are compared each with each */
@@ -180,7 +180,7 @@ static size_t choose(search *s, size_t at, size_t count, const box *part)
     return s->used - before;
 }
 
-/* Puts the lists of a part's halves on top of the stack; false where that is not worth it. */
+/* Puts the lists of a part's halves on top of the stack; false if that is not worth it. */
 static bool halve(search *s, size_t at, size_t count, const box *part, box halves[2], size_t starts[2],
                   size_t counts[2])
 {

@@ -2,6 +2,9 @@
 #ifndef TARTAN_GEOMETRY_UNION_COVER_H
 #define TARTAN_GEOMETRY_UNION_COVER_H
 
+#include <stdbool.h>
+#include <stddef.h>
+
 #include "runtime/geometry/union/box_tree.h"
 
 enum { TN_COVER_CORNERS = 10 }; /* of a polygon: a cell of a union has no more corners */
@@ -13,7 +16,7 @@ typedef struct tn_cover {
     double low[2], high[2]; /* its bounds */
 } tn_cover;
 
-/* The hull of points, and its bounds; count is at most TN_COVER_CORNERS. False where out of memory. */
+/* The hull of points, and its bounds; count is at most TN_COVER_CORNERS. False if out of memory. */
 bool tn_cover_of(const double (*points)[2], size_t count, tn_cover *cover);
 
 /* As a box of no height. */
@@ -33,5 +36,16 @@ double tn_cover_left(const tn_cover_pieces *work);
 
 /* What polygons cover together; they come to be in another order. Negative where out of memory. */
 double tn_cover_area(tn_cover *covers, size_t count);
+
+/* What a solid stands on: the convex hull of points in the plane. */
+
+/* Leaves of the points the corners of their hull, counter-clockwise: one or two where they have no area. False where
+ * out of memory. */
+bool tn_hull(double (*points)[2], size_t *count);
+
+double tn_hull_area(const double (*hull)[2], size_t count);
+
+/* How far a point lies inside the hull; below 0: how far outside. */
+double tn_hull_depth(const double (*hull)[2], size_t count, const double point[2]);
 
 #endif

@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "runtime/math/elementary.h"
+
 /* The corners of each side in order; bit 0 of a corner is high x, bit 1 y, bit 2 z. */
 static const uint8_t sides[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
 
@@ -205,4 +207,13 @@ void tn_cut_box_moments(const tn_cut_box *cell, tn_moments *moments)
             add_tetrahedron(o, (const double(*)[3])p, moments);
         }
     }
+}
+
+/* ---- turns the angles of a box's plane into its normal */
+
+void tn_normal_of_angles(double a, double b, double normal[3])
+{
+    normal[0] = tn_cos_degrees(b) * tn_sin_degrees(a);
+    normal[1] = tn_sin_degrees(b);
+    normal[2] = tn_cos_degrees(b) * tn_cos_degrees(a);
 }

@@ -9,8 +9,9 @@
 
 #include "runtime/base/error.h"
 #include "runtime/geometry/boundary_mesh.h"
+#include "runtime/geometry/guide/guide.h"
 #include "runtime/geometry/vector.h"
-#include "runtime/growth/model/records.h"
+#include "runtime/growth/model/system.h"
 
 typedef struct tn_force {
     uint32_t kind;   /* tn_force_kind */
@@ -56,5 +57,13 @@ bool tn_environment_trespasses(const tn_environment *environment, tn_vector x);
 /* Does any boundary change how vertices move? Any soft one? */
 bool tn_environment_has_hard(const tn_environment *environment);
 bool tn_environment_has_soft(const tn_environment *environment);
+
+/* What a surface grows in, as guides for a picture of it: forces at their places, gravity as an arrow, boundaries as
+ * outlines, and the ground, which is the level of the lowest vertex. */
+
+/* Adds them around a surface whose vertices lie between `low` and `high`. A force that is farther from it than it is
+ * large is shown as an arrow that points there; of a plane, the part near the surface is shown. TN_MEMORY. */
+tn_status tn_surroundings_guides(const tn_environment *environment, const double low[3], const double high[3],
+                                 tn_guides *guides, tn_error *error);
 
 #endif

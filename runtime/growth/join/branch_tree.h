@@ -40,17 +40,6 @@ typedef struct tn_branch_trees {
 bool tn_branch_trees_new(const tn_loop *loop, const tn_growth *growth, tn_branch_trees *trees);
 void tn_branch_trees_clear(tn_branch_trees *trees);
 
-/* The branch joined. False: out of memory. */
-bool tn_branch_trees_drop(tn_branch_trees *trees, uint32_t branch);
-
-/* Makes a region of its own of branches of one region. False: out of memory. */
-bool tn_branch_trees_part(tn_branch_trees *trees, const uint32_t *list, uint32_t count, uint32_t region);
-
-/* The first pair (tn_candidate_before) of this branch and another of its region that may join but for the topology;
- * `after` not NULL: of the pairs after that one. False: none. */
-bool tn_branch_trees_nearest(const tn_branch_trees *trees, uint32_t branch, const tn_candidate *after,
-                             tn_candidate *found);
-
 /* How far two branches of one label come. */
 typedef tn_join_failure (*tn_branch_reason)(const tn_loop *loop, const tn_growth *growth, const tn_loop_branch *a,
                                             const tn_loop_branch *b);

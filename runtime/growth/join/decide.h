@@ -21,9 +21,6 @@ typedef struct tn_face_chunk {
     int decider; /* that its faces' cuts are in */
 } tn_face_chunk;
 
-/* As many deciders as threads, ready for a pass. False: out of memory. */
-bool tn_deciders_prepare(tn_growth_workspace *space, int count);
-
 /* The next pass is another system's. */
 void tn_deciders_forget(tn_growth_workspace *space);
 void tn_deciders_clear(tn_growth_workspace *space);

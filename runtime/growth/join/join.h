@@ -2,8 +2,26 @@
 #ifndef TARTAN_GROWTH_JOIN_JOIN_H
 #define TARTAN_GROWTH_JOIN_JOIN_H
 
-#include "runtime/growth/join/pair_set.h"
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
 #include "runtime/growth/pass/pass.h"
+
+/* Sets of pairs of vertices (internal to the growth engine). A set that is all zero is empty. */
+
+typedef struct tn_pair_set {
+    uint64_t *slots; /* low vertex << 32 | high vertex; 0 is free (no pair has two equal vertices) */
+    size_t count, capacity;
+} tn_pair_set;
+
+void tn_pair_set_clear(tn_pair_set *set);
+
+/* The order of the two does not matter. */
+bool tn_pair_set_has(const tn_pair_set *set, uint32_t u, uint32_t v);
+
+/* Adds two different vertices. False: out of memory. */
+bool tn_pair_set_add(tn_pair_set *set, uint32_t u, uint32_t v);
 
 /* Something on a face's loop: a dart, or a branch that hangs into the face at a corner. */
 typedef struct tn_loop_item {
@@ -79,11 +97,11 @@ static inline double tn_branch_reach(const tn_growth *growth)
     return multiples >= 0 ? multiples * growth->length * (1 + 1e-9) : INFINITY;
 }
 
-/* TN_JOIN_FAILURE_COUNT where they lie so that they may join; then their distance, quantised. */
+/* TN_JOIN_FAILURE_COUNT if they lie so that they may join; then their distance, quantised. */
 tn_join_failure tn_branches_measure(const tn_growth *growth, tn_vector a_direction, tn_vector a_at,
                                     tn_vector b_direction, tn_vector b_at, double *distance);
 
-/* How far two branches of one label at different vertices come: TN_JOIN_FAILURE_COUNT where nothing but the topology
+/* How far two branches of one label at different vertices come: TN_JOIN_FAILURE_COUNT if nothing but the topology
  * could stand against it. */
 tn_join_failure tn_branches_compare(const tn_growth *growth, const tn_loop_branch *a, const tn_loop_branch *b,
                                     double *distance);
@@ -109,25 +127,13 @@ bool tn_loop_expand(tn_loop *loop, const tn_pass *pass, uint32_t face, bool bran
 tn_join_outcome tn_loop_join_branches(tn_loop *loop, const tn_pass *pass, uint32_t face, tn_pair_set *taken);
 
 /* The two ways to do that: looking at all pairs, which is quick where there are few branches, and asking each branch
- * for its nearest (join_many.c). */
+ * for its nearest (branch_tree.c). */
 tn_join_outcome tn_loop_join_few(tn_loop *loop, const tn_pass *pass, uint32_t face, tn_pair_set *taken);
 tn_join_outcome tn_loop_join_many(tn_loop *loop, const tn_pass *pass, uint32_t face, tn_pair_set *taken);
 
-/* The way of `Even` (join_even.c): of pairs that are equally near, those that exclude each other do not join, so that
- * no join hangs on the order of branches. */
-tn_join_outcome tn_loop_join_even(tn_loop *loop, const tn_pass *pass, uint32_t face);
-
-#define TN_EVEN_BRANCHES_MAX 2048u /* of a face: where there are more, ties go by the branches' numbers all the same   \
-                                    */
-
-/* All pairs that may join but for the topology, the nearest first. False: out of memory. */
-bool tn_loop_pairs(tn_loop *loop, const tn_growth *growth);
-
-/* Does a join of this face link the two vertices? */
-bool tn_loop_links(const tn_loop *loop, uint32_t u, uint32_t v);
-
-/* Joins a pair and cuts its region in two. False: out of memory. */
-bool tn_loop_join_pair(tn_loop *loop, const tn_candidate *pair);
+#define TN_EVEN_BRANCHES_MAX                                                                                           \
+    2048u /* of a face: where there are more, ties go by the branches' numbers all the same                            \
+           */
 
 /* May these two join, whose vertices no join of this face links yet? */
 tn_join_outcome tn_loop_may_join(const tn_loop *loop, const tn_pass *pass, uint32_t face, const tn_candidate *pair,

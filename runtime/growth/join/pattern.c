@@ -6,6 +6,185 @@
 
 #include "runtime/base/array.h"
 
+/* ==== cuts a face into loops along its joined branches */
+
+void tn_cuts_clear(tn_cuts *cuts)
+{
+    free(cuts->items);
+    free(cuts->origins);
+    free(cuts->sides);
+    free(cuts->loops);
+    free(cuts->joins);
+    free(cuts->waiting);
+    *cuts = (tn_cuts){0};
+}
+
+void tn_cuts_empty(tn_cuts *cuts)
+{
+    cuts->count = cuts->dart_count = cuts->loop_count = cuts->join_count = cuts->waiting_count = 0;
+}
+
+/* One more than is needed, so that there is an array to point into where nothing is. */
+static bool make_room(tn_cuts *cuts, const tn_loop *loop, bool waiting)
+{
+    size_t joins = loop->join_count + 1, origin_room = cuts->dart_room;
+    return tn_array_reserve(&cuts->items, &cuts->room, cuts->count, 1, sizeof *cuts->items) &&
+           tn_array_reserve(&cuts->origins, &origin_room, cuts->dart_count, loop->item_count, sizeof *cuts->origins) &&
+           tn_array_reserve(&cuts->sides, &cuts->dart_room, cuts->dart_count, loop->item_count, sizeof *cuts->sides) &&
+           tn_array_reserve(&cuts->loops, &cuts->loop_room, cuts->loop_count, joins, sizeof *cuts->loops) &&
+           tn_array_reserve(&cuts->joins, &cuts->join_room, cuts->join_count, joins, sizeof *cuts->joins) &&
+           (!waiting || tn_array_reserve(&cuts->waiting, &cuts->waiting_room, cuts->waiting_count,
+                                         loop->branch_count + 1, sizeof *cuts->waiting));
+}
+
+/* Branches met after a loop's last dart lie in the corner before its first: they come first. */
+static void turn_waiting(tn_cut_waiting *list, uint32_t count, uint32_t first_dart, uint32_t end_dart)
+{
+    uint32_t tail = 0;
+    while (tail < count && list[count - 1 - tail].dart == end_dart)
+        tail++;
+    for (uint32_t i = 0; i < tail; i++) {
+        tn_cut_waiting last = list[count - 1];
+        memmove(list + 1, list, (count - 1) * sizeof *list);
+        last.dart = first_dart;
+        list[0] = last;
+    }
+}
+
+/* Writes the loop that item `start` lies on. A branch that joined is the dart towards its partner, after which the loop
+ * goes on behind the partner. */
+static void write_loop(tn_cuts *cuts, tn_cut *cut, tn_loop *loop, uint32_t start, bool waiting)
+{
+    uint32_t *origins = cuts->origins + cut->dart_first, *sides = cuts->sides + cut->dart_first;
+    tn_cut_waiting *list = waiting ? cuts->waiting + cut->waiting_first : NULL;
+    uint32_t first = cut->dart_count, before = cut->waiting_count, i = start;
+    do {
+        tn_loop_item *item = &loop->items[i];
+        tn_loop_branch *branch = item->is_branch ? &loop->branches[item->value] : NULL;
+        uint32_t next = i;
+        if (!branch || branch->partner >= 0) {
+            item->seen = true;
+            origins[cut->dart_count] = item->vertex;
+            sides[cut->dart_count] = branch ? TN_NONE : item->value;
+            if (branch) {
+                branch->dart = cut->dart_count;
+                next = loop->branches[branch->partner].item;
+            }
+            cut->dart_count++;
+        } else if (waiting) {
+            list[cut->waiting_count++] = (tn_cut_waiting){item->value, cut->loop_count, cut->dart_count};
+        }
+        i = next + 1 == loop->item_count ? 0 : next + 1;
+    } while (i != start);
+    if (cut->waiting_count > before)
+        turn_waiting(list + before, cut->waiting_count - before, first, cut->dart_count);
+    cuts->loops[cut->loop_first + cut->loop_count++] = (tn_cut_loop){cut->dart_count, loop->items[start].region};
+}
+
+bool tn_cuts_add(tn_cuts *cuts, tn_loop *loop, bool waiting)
+{
+    if (!make_room(cuts, loop, waiting))
+        return false;
+    tn_cut *cut = &cuts->items[cuts->count++];
+    *cut = (tn_cut){cuts->dart_count, cuts->loop_count, cuts->join_count, cuts->waiting_count, 0, 0, 0, 0};
+    for (uint32_t i = 0; i < loop->item_count; i++) {
+        const tn_loop_item *item = &loop->items[i];
+        if (!item->seen && (!item->is_branch || loop->branches[item->value].partner >= 0))
+            write_loop(cuts, cut, loop, i, waiting);
+    }
+    for (uint32_t i = 0; i < loop->join_count; i++) {
+        const tn_loop_branch *one = &loop->branches[loop->joins[i].start], *other = &loop->branches[loop->joins[i].end];
+        cuts->joins[cut->join_first + cut->join_count++] =
+            (tn_cut_join){one->id, other->id, one->dart, other->dart, one->reversed != other->reversed, false, 0};
+    }
+    cuts->dart_count += cut->dart_count;
+    cuts->loop_count += cut->loop_count;
+    cuts->join_count += cut->join_count;
+    cuts->waiting_count += cut->waiting_count;
+    return true;
+}
+
+/* ---- references */
+
+typedef struct table {
+    const tn_pass *pass;
+    uint32_t first, size; /* darts of the face */
+} table;
+
+/* The pieces that a dart's edge became; 0 if it is kept. */
+static uint32_t pieces_of(const table *face, uint32_t dart)
+{
+    const tn_record *record = &face->pass->records[face->pass->old->side[face->first + dart] / 2];
+    return tn_is_kept(record) ? 0 : face->pass->growth->system->templates[record->template].segment_count;
+}
+
+static uint32_t refer_to_vertex(const table *face, uint32_t vertex)
+{
+    uint32_t bases[TN_BASES];
+    for (uint32_t i = 0; i < face->size; i++) {
+        tn_dart_bases(face->pass, face->first + i, bases);
+        if (bases[TN_BASE_ORIGIN] == vertex)
+            return tn_refer(i, TN_BASE_ORIGIN, 0);
+        uint32_t pieces = pieces_of(face, i), more = vertex - bases[TN_BASE_VERTEX];
+        if (pieces > 0 && more < pieces - 1)
+            return tn_refer(i, TN_BASE_VERTEX, more);
+    }
+    return 0;
+}
+
+static uint32_t refer_to_side(const table *face, uint32_t side)
+{
+    uint32_t bases[TN_BASES];
+    for (uint32_t i = 0; i < face->size; i++) {
+        tn_dart_bases(face->pass, face->first + i, bases);
+        uint32_t pieces = pieces_of(face, i), more = side - bases[TN_BASE_SIDE];
+        if (pieces ? more < 2 * pieces : more == 0)
+            return tn_refer(i, TN_BASE_SIDE, more);
+    }
+    return 0;
+}
+
+/* Returns what the template says of the branch, too. */
+static const tn_template_branch *refer_to_branch(const table *face, uint32_t *id)
+{
+    for (uint32_t i = 0; i < face->size; i++) {
+        const tn_record *record = &face->pass->records[face->pass->old->side[face->first + i] / 2];
+        if (tn_is_kept(record))
+            continue;
+        const tn_template *template = face->pass->growth->shapes[record->template].template;
+        uint32_t more = *id - record->branch;
+        if (more >= template->branch_count)
+            continue;
+        *id = tn_refer(i, TN_BASE_BRANCH, more);
+        return &template->branches[more];
+    }
+    return NULL;
+}
+
+static void refer_to_joint(const table *face, tn_cut_join *join)
+{
+    const tn_template_branch *one = refer_to_branch(face, &join->one), *other = refer_to_branch(face, &join->other);
+    join->aged = one->age != TN_AGE_ZERO || other->age != TN_AGE_ZERO;
+    join->state = tn_state(one->label, 0, false);
+}
+
+/* Turns the last cut that was added, made of this face's loop, into one of references. */
+static void cuts_refer(tn_cuts *cuts, const tn_pass *pass, uint32_t face, const tn_loop *loop)
+{
+    const tn_cut *cut = &cuts->items[cuts->count - 1];
+    table of = {pass, pass->old->face_first[face], tn_face_size(pass->old, face)};
+    for (size_t d = cut->dart_first; d < cut->dart_first + cut->dart_count; d++) {
+        cuts->origins[d] = refer_to_vertex(&of, cuts->origins[d]);
+        cuts->sides[d] = cuts->sides[d] == TN_NONE ? 0 : refer_to_side(&of, cuts->sides[d]);
+    }
+    for (size_t j = cut->join_first; j < cut->join_first + cut->join_count; j++)
+        refer_to_joint(&of, &cuts->joins[j]);
+    for (size_t w = cut->waiting_first; w < cut->waiting_first + cut->waiting_count; w++) {
+        cuts->waiting[w].branch = loop->branches[cuts->waiting[w].branch].id;
+        refer_to_branch(&of, &cuts->waiting[w].branch);
+    }
+}
+
 #define BRANCHES 32u
 #define PAIRS 32u
 #define CANDIDATES 7u   /* pairs that may join in one face where their order matters: a byte each names them in a key */
@@ -66,7 +245,7 @@ void tn_patterns_clear(tn_patterns *patterns)
 {
     free(patterns->items);
     free(patterns->variants);
-    free(patterns->slots);
+    tn_hash_clear(&patterns->table);
     tn_cuts_clear(&patterns->cuts);
     *patterns = (tn_patterns){0};
 }
@@ -74,8 +253,7 @@ void tn_patterns_clear(tn_patterns *patterns)
 void tn_patterns_forget(tn_patterns *patterns)
 {
     patterns->count = patterns->variant_count = 0;
-    if (patterns->slots)
-        memset(patterns->slots, 0, patterns->slot_count * sizeof *patterns->slots);
+    tn_hash_forget(&patterns->table);
     tn_cuts_empty(&patterns->cuts);
 }
 
@@ -122,35 +300,20 @@ static inline bool same_codes(const uint64_t *a, const uint64_t *b, uint32_t siz
     return true;
 }
 
-static inline size_t slot_of(const tn_patterns *patterns, const uint64_t *codes, uint32_t size)
+typedef struct wanted_pattern {
+    const tn_patterns *patterns;
+    const uint64_t *codes;
+    uint32_t size;
+} wanted_pattern;
+
+static bool is_wanted(const void *context, uint32_t number)
 {
-    uint64_t hash = hash_of(codes, size);
-    for (size_t i = (size_t)hash & (patterns->slot_count - 1);; i = (i + 1) & (patterns->slot_count - 1)) {
-        if (patterns->slots[i] == 0)
-            return i;
-        const tn_pattern *one = &patterns->items[patterns->slots[i] - 1];
-        if (one->size == size && same_codes(one->codes, codes, size))
-            return i;
-    }
+    const wanted_pattern *w = context;
+    const tn_pattern *one = &w->patterns->items[number];
+    return one->size == w->size && same_codes(one->codes, w->codes, w->size);
 }
 
-static bool make_slots(tn_patterns *patterns)
-{
-    size_t larger = patterns->slot_count ? 2 * patterns->slot_count : 64;
-    uint32_t *slots = calloc(larger, sizeof *slots);
-    if (!slots)
-        return false;
-    free(patterns->slots);
-    patterns->slots = slots;
-    patterns->slot_count = larger;
-    for (size_t i = 0; i < patterns->count; i++) {
-        const tn_pattern *one = &patterns->items[i];
-        slots[slot_of(patterns, one->codes, one->size)] = (uint32_t)i + 1;
-    }
-    return true;
-}
-
-/* The branches that lie in such a face, as its loop meets them; false where it is unusual. */
+/* The branches that lie in such a face, as its loop meets them; false if it is unusual. */
 static bool list_branches(const tn_pass *pass, const tn_pattern *pattern, pattern_branch *list, uint32_t *count)
 {
     *count = 0;
@@ -225,27 +388,28 @@ static void add_pairs(const tn_pass *pass, tn_pattern *pattern)
     }
 }
 
-/* The face's pattern; NULL where there are too many. The first of its kind is added. False: out of memory. */
+/* The face's pattern; NULL if there are too many. The first of its kind is added. False: out of memory. */
 static bool find_pattern(tn_patterns *patterns, const view *seen, tn_pattern **found)
 {
     *found = NULL;
-    if (2 * patterns->count >= patterns->slot_count && !make_slots(patterns))
-        return false;
-    size_t slot = slot_of(patterns, seen->codes, seen->size);
-    if (patterns->slots[slot]) {
-        *found = &patterns->items[patterns->slots[slot] - 1];
+    uint64_t hash = hash_of(seen->codes, seen->size);
+    wanted_pattern wanted = {patterns, seen->codes, seen->size};
+    uint32_t number = tn_hash_find(&patterns->table, hash, is_wanted, &wanted);
+    if (number != TN_HASH_NONE) {
+        *found = &patterns->items[number];
         return true;
     }
     if (patterns->count == PATTERNS)
         return true;
-    if (!tn_array_reserve(&patterns->items, &patterns->room, patterns->count, 1, sizeof *patterns->items))
+    number = (uint32_t)patterns->count;
+    if (!tn_array_reserve(&patterns->items, &patterns->room, patterns->count, 1, sizeof *patterns->items) ||
+        tn_hash_enter(&patterns->table, hash, is_wanted, &wanted, &number, NULL) != TN_OK)
         return false;
     tn_pattern *added = &patterns->items[patterns->count++];
     memset(added, 0, sizeof *added);
     added->size = seen->size;
     memcpy(added->codes, seen->codes, (seen->size + CODES - 1) / CODES * sizeof *seen->codes);
     add_pairs(seen->pass, added);
-    patterns->slots[slot] = (uint32_t)patterns->count;
     *found = added;
     return true;
 }
@@ -285,7 +449,7 @@ static inline bool oppose(const view *seen, const pattern_pair *pair)
     return tn_branches_oppose(seen->pass->growth, exact_direction(seen, &pair->a), exact_direction(seen, &pair->b));
 }
 
-/* The pairs whose directions are opposed, a bit each, and those that they exclude; false where another face might join
+/* The pairs whose directions are opposed, a bit each, and those that they exclude; false if another face might join
  * the same vertices, so that this one has to be worked out by itself. */
 static bool find_opposed(const tn_pattern *pattern, const view *seen, uint32_t *opposed, uint32_t *excluded)
 {
@@ -327,7 +491,7 @@ static bool comes_before(const candidate *a, const candidate *b)
     return a->low != b->low ? a->low < b->low : a->high < b->high;
 }
 
-/* The key of opposed pairs in their order; false where they are too many. */
+/* The key of opposed pairs in their order; false if they are too many. */
 static bool order(const tn_pattern *pattern, const view *seen, uint32_t opposed, uint64_t *key)
 {
     candidate list[CANDIDATES], one;
@@ -376,7 +540,7 @@ static bool add_variant(tn_patterns *patterns, const tn_pass *pass, uint32_t fac
         tn_loop_join_branches(loop, pass, face, NULL) != TN_JOINED || /* never later: nothing is shared */
         !tn_cuts_add(&patterns->cuts, loop, true))
         return false;
-    tn_cuts_refer(&patterns->cuts, pass, face, loop);
+    cuts_refer(&patterns->cuts, pass, face, loop);
     variant.cut = (uint32_t)patterns->cuts.count - 1;
     memmove(patterns->variants + at + 1, patterns->variants + at,
             (patterns->variant_count - at) * sizeof *patterns->variants);

@@ -5,22 +5,22 @@
 #include "runtime/base/watch.h"
 
 typedef struct tn_growth_options {
-    double scale[3];       /* factor of each step, by axis; > 0 */
-    double start[3];       /* centre of the seed */
-    double start_length;   /* side of the seed; > 0 */
-    double branch_angle;   /* degrees; negative: the system's own */
-    double branch_length;  /* of joins, in multiples of start_length times the mean scale to the power of the step;
-                              negative: any */
-    bool fixed_centre;     /* scale about the start rather than about the mean of the vertices */
-    bool fixed_perimeter;  /* vertices of the outline stay */
-    bool facing;           /* branches join only where each points towards the other */
-    bool mirror;           /* '+' turns right, as in files of Genr8 */
-    bool interpret;        /* run the rules' code for every edge (pass/interpret.h): the same surface, more slowly */
-    bool explain;          /* count why branches did not join */
-    uint64_t seed;         /* of weighted rules */
-    uint64_t edge_limit;   /* most edges; 0: TN_EDGES_MAX */
-    int threads;           /* 0: as many as the machine has */
-    tn_watch *watch;       /* or NULL: a step gives up (TN_STOPPED) once this says so, and the map is then unusable */
+    double scale[3];      /* factor of each step, by axis; > 0 */
+    double start[3];      /* centre of the seed */
+    double start_length;  /* side of the seed; > 0 */
+    double branch_angle;  /* degrees; negative: the system's own */
+    double branch_length; /* of joins, in multiples of start_length times the mean scale to the power of the step;
+                             negative: any */
+    bool fixed_centre;    /* scale about the start rather than about the mean of the vertices */
+    bool fixed_perimeter; /* vertices of the outline stay */
+    bool facing;          /* branches join only where each points towards the other */
+    bool mirror;          /* '+' turns right, as in files of Genr8 */
+    bool interpret;       /* run the rules' code for every edge (pass/interpret.c): the same surface, more slowly */
+    bool explain;         /* count why branches did not join */
+    uint64_t seed;        /* of weighted rules */
+    uint64_t edge_limit;  /* most edges; 0: TN_EDGES_MAX */
+    int threads;          /* 0: as many as the machine has */
+    tn_watch *watch;      /* or NULL: a step gives up (TN_STOPPED) once this says so, and the map is then unusable */
 } tn_growth_options;
 
 /* Scale 1.5, start at the origin with length 1, branches of any length, seed 1: the defaults of Genr8. */

@@ -47,7 +47,7 @@ static tn_status mean(const tn_growth *growth, tn_vector *centre, tn_error *erro
     return status;
 }
 
-/* Which vertices are on the outline; NULL where none stays. */
+/* Which vertices are on the outline; NULL if none stays. */
 static tn_status find_fixed(const tn_growth *growth, unsigned char **fixed, tn_error *error)
 {
     const tn_map *map = &growth->map;

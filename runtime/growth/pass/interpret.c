@@ -1,14 +1,13 @@
 /* Interprets a rewrite system's code for each edge: its guards to find the successor, the turtle to draw it. */
-#include "runtime/growth/pass/interpret.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/base/array.h"
 #include "runtime/base/random.h"
-#include "runtime/growth/model/turtle.h"
-#include "runtime/growth/pass/axes.h"
-#include "runtime/growth/pass/rewrite.h"
+#include "runtime/growth/model/system.h"
+#include "runtime/growth/pass/pass.h"
+#include "runtime/growth/pass/rows.h"
 
 typedef struct interpreter {
     tn_pass *pass;
@@ -179,7 +178,7 @@ static outcome run_test(interpreter *in, const tn_instruction *test, uint32_t ed
     }
 }
 
-/* Asks a guard of an edge. True where it gives a successor. */
+/* Asks a guard of an edge. True if it gives a successor. */
 static bool run_guard(interpreter *in, uint32_t guard, uint32_t edge, uint32_t *successor)
 {
     const tn_function_record *function = &in->module->FUNCTION_records[guard];
@@ -276,7 +275,7 @@ static tn_vector turned(const tn_axes *axes, const double direction[3])
     return tn_along(tn_along(tn_scale(axes->heading, direction[0]), axes->left, direction[1]), axes->up, direction[2]);
 }
 
-/* The vertices between the pieces. False where a coordinate leaves its range. */
+/* The vertices between the pieces. False if a coordinate leaves its range. */
 static bool place_vertices(const tn_pass *pass, const tn_axes *axes, tn_vector start, const tn_template *drawn,
                            double *positions)
 {
@@ -291,7 +290,7 @@ static bool place_vertices(const tn_pass *pass, const tn_axes *axes, tn_vector s
     return true;
 }
 
-/* The pieces' labels and ages. False where an age leaves its range. */
+/* The pieces' labels and ages. False if an age leaves its range. */
 static bool set_states(const tn_pass *pass, const tn_template *drawn, int32_t old_age, tn_edge_state *states)
 {
     for (uint32_t j = 0; j < drawn->segment_count; j++) {

@@ -3,16 +3,16 @@
  * A step is one pass for all groups of rules (Sync) or one for each group. A pass reads the old map and writes a new
  * one:
  *
- *   survey   each edge side's vertex and face, each face's normal                            (survey.c)
+ *   survey   each edge side's vertex and face, each face's normal                            (match.c)
  *   match    which template, if any, replaces each edge                                      (match.c)
  *   rewrite  numbers and states of what replaces each edge, its vertices, its branches' aims  (rewrite.c)
  *   decide   which branches of each face join, and into which loops the face is cut           (decide.c)
- *   number   joined edges, by their lower branch; faces, by the order of their making         (number.c, faces.c)
+ *   number   joined edges, by their lower branch; faces, by the order of their making         (rewrite.c, decide.c)
  *   stamp    every dart of the new map written once, in its place                             (stamp.c)
  *
- * Matching and rewriting have a plain way too, which interprets the rules' code for every edge (interpret.h).
- * Deciding one face is the work of loop.c and join.c; face_cut.c keeps what they found, and pattern.c knows it again
- * where another face has the same edges replaced by the same templates.
+ * Matching and rewriting have a plain way too, which interprets the rules' code for every edge (interpret.c).
+ * Deciding one face is the work of join.c; pattern.c keeps what it found, and knows it again if another face has the
+ * same edges replaced by the same templates.
  */
 #ifndef TARTAN_GROWTH_PASS_PASS_H
 #define TARTAN_GROWTH_PASS_PASS_H
@@ -149,8 +149,8 @@ typedef struct tn_pass {
     uint32_t *dart;      /* [2 edge + against]; only where `walks_vertices` */
     bool walks_vertices; /* joining may ask who is around a vertex */
     /* match */
-    const uint16_t *template_of; /* [label] template or TN_NO_TEMPLATE, where labels alone decide; otherwise NULL */
-    uint16_t *choice;            /* [edge] the same, where they do not and no chains are replaced */
+    const uint16_t *template_of;      /* [label] template or TN_NO_TEMPLATE, if labels alone decide; otherwise NULL */
+    uint16_t *choice;                 /* [edge] the same, where they do not and no chains are replaced */
     struct tn_edge_replacement *list; /* where chains are replaced: all replacements, in order; otherwise NULL */
     size_t list_count;
     /* rewrite */
@@ -164,12 +164,12 @@ typedef struct tn_pass {
     /* decide */
     uint32_t *joints; /* [branch] where it is a joined pair's lower one: the edge's state, then its number; others:
                          TN_NONE */
-    uint32_t *cut_of; /* [face] how it is cut (face_cut.h) */
+    uint32_t *cut_of; /* [face] how it is cut (pattern.h) */
     uint32_t *made;   /* [rank of a face] its joins, then the rank of the first face that they make; NULL: no ranks */
     struct tn_face_chunk *chunks;
     uint32_t chunk_count;
     /* stamp */
-    bool has_lanes; /* the processor has them (stamp_lanes.h) */
+    bool has_lanes; /* the processor has them (stamp.h) */
 } tn_pass;
 
 /* Who works on a pass. */
@@ -178,7 +178,7 @@ static inline tn_crew *tn_pass_crew(const tn_pass *pass)
     return pass->growth->crew;
 }
 
-/* The template that replaces an edge, or TN_NO_TEMPLATE, where no chains are replaced. */
+/* The template that replaces an edge, or TN_NO_TEMPLATE, if no chains are replaced. */
 static inline uint16_t tn_choice(const tn_pass *pass, uint32_t edge)
 {
     if (!pass->template_of)
@@ -221,8 +221,45 @@ tn_status tn_pass_stamp(tn_pass *pass, tn_error *error);
 tn_status tn_pass_faces(tn_pass *pass, tn_error *error);
 tn_status tn_pass_number_joints(const tn_pass *pass, tn_error *error);
 
-/* TN_LIMIT where a step makes more edges than the options allow. */
+/* TN_LIMIT if a step makes more edges than the options allow. */
 tn_status tn_growth_check_edges(const tn_growth *growth, uint64_t edges, tn_error *error);
 tn_status tn_growth_displace(tn_growth *growth, tn_error *error);
+
+/* What both ways of rewriting share: counting, room and numbers for what replaces edges (internal to the growth
+ * engine). */
+
+/* How many of each, so far or in a chunk. */
+typedef struct tn_rewrite_tally {
+    uint64_t rewrites, kept, pieces, vertices, branches;
+} tn_rewrite_tally;
+
+/* Memory for what the counts say, and the first numbers of each kind. */
+tn_status tn_rewrite_make_room(tn_pass *pass, const tn_rewrite_tally *total, tn_error *error);
+
+/* An edge that is not replaced gets this number. */
+static inline void tn_rewrite_keep(tn_pass *pass, uint32_t edge, uint32_t number)
+{
+    pass->records[edge] = (tn_record){2 * number, 0, pass->branch_first, TN_NO_TEMPLATE, 0};
+    tn_edge_state state = pass->old->states[edge];
+    pass->new->states[number] = pass->joins_last ? state & ~TN_STATE_FRESH : state;
+}
+
+/* The record of a chain's first edge becomes that of all. */
+void tn_rewrite_along(tn_pass *pass, const tn_edge_replacement *chain);
+
+/* TN_LIMIT: an age or a coordinate left its range. */
+tn_status tn_rewrite_out_of_range(const tn_pass *pass, tn_error *error);
+
+/* The plain way of a pass, which the fast one is held against: every edge asks the guards' code for its successor, and
+ * the turtle runs the successor's code for every edge that is replaced (internal to the growth engine).
+ *
+ * It has no table of templates by label, no bits of contexts, no chunks and no rows. Joining and all that follows is
+ * the same for both ways. */
+
+/* As tn_pass_match: all replacements, in order, in the pass's list. */
+tn_status tn_interpret_match(tn_pass *pass, tn_error *error);
+
+/* As tn_pass_rewrite, of that list. */
+tn_status tn_interpret_rewrite(tn_pass *pass, tn_error *error);
 
 #endif

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "runtime/growth/environment/surroundings.h"
+#include "runtime/growth/environment/environment.h"
 
 static void add_face(const tn_map *map, uint32_t face, tn_display_list *display, uint32_t *corner)
 {

@@ -5,7 +5,7 @@
 #include "runtime/growth/growth.h"
 #include "runtime/scene/view.h"
 
-/* Takes a picture of the growth as it stands; `surrounded`, with what it grows in. E0820 where it has more than
+/* Takes a picture of the growth as it stands; `surrounded`, with what it grows in. E0820 if it has more than
  * TN_DRAWN_FACES_MAX faces. */
 tn_status tn_growth_view(const tn_growth *growth, const tn_camera *camera, bool surrounded, tn_view **view,
                          tn_error *error);

@@ -1,6 +1,7 @@
 /* Finds the best values of a library's houses: for each node, the values that what follows can add. */
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "runtime/base/array.h"
 #include "runtime/house/count/data.h"
@@ -43,52 +44,54 @@ static tn_status add_values(const tn_houses *h, tn_value_counts *to, const tn_va
 
 /* ---- a section, from the end of the row backwards */
 
+/* The element of a node is values [lengths]. */
 typedef struct tn_aiming {
     const tn_houses *houses;
-    tn_houses_kind *kind;
-    uint32_t layer;
     uint64_t pairs; /* of nodes and values, of all layers */
     mpz_t times;
 } tn_aiming;
 
-static tn_value_counts *values_at(const tn_aiming *a, uint32_t layer, uint32_t node, uint32_t length)
-{
-    return &a->kind->layers[layer].best[(size_t)node * tn_houses_lengths(a->houses) + length];
-}
-
-static tn_status add_end(void *context, const tn_houses_edge *edge, tn_error *error)
+static void zero_values(const void *context, void *element)
 {
     const tn_aiming *a = context;
-    tn_value_counts *to = values_at(a, a->layer, edge->from, a->layer - a->houses->low);
-    mpz_t times;
-    mpz_init_set_ui(times, edge->times);
-    bool ok = tn_value_counts_add(to, &edge->gain, times);
-    mpz_clear(times);
-    return ok ? TN_OK : tn_fail_memory(error);
+    memset(element, 0, tn_houses_lengths(a->houses) * sizeof(tn_value_counts));
 }
 
-static tn_status add_ahead(void *context, const tn_houses_edge *edge, tn_error *error)
+static tn_status add_end(void *context, void *element, const tn_walk_edge *at, tn_error *error)
 {
     tn_aiming *a = context;
-    uint32_t to = tn_number_find(&a->kind->layers[a->layer + 1].nodes, (uint64_t)edge->plan << 32 | edge->state);
+    const tn_houses_edge *edge = at->label;
+    mpz_set_ui(a->times, edge->times);
+    return tn_value_counts_add((tn_value_counts *)element + (at->layer - a->houses->low), &edge->gain, a->times)
+               ? TN_OK
+               : tn_fail_memory(error);
+}
+
+static tn_status add_ahead(void *context, void *sum, const void *element, const tn_walk_edge *at, tn_error *error)
+{
+    tn_aiming *a = context;
+    tn_value_counts *to = sum;
+    const tn_value_counts *from = element;
+    const tn_houses_edge *edge = at->label;
     tn_status status = TN_OK;
     mpz_set_ui(a->times, edge->ways);
     mpz_mul_ui(a->times, a->times, edge->times);
     for (uint32_t i = 0; status == TN_OK && i < tn_houses_lengths(a->houses); i++)
-        status = add_values(a->houses, values_at(a, a->layer, edge->from, i), values_at(a, a->layer + 1, to, i),
-                            &edge->gain, a->times, error);
+        status = add_values(a->houses, &to[i], &from[i], &edge->gain, a->times, error);
     return status;
 }
 
-static tn_status finish_layer(tn_aiming *a, tn_error *error)
+static tn_status keep_aimed(void *context, uint32_t layer, uint32_t state, void *element, tn_error *error)
 {
+    tn_aiming *a = context;
     const tn_houses *h = a->houses;
-    const tn_houses_layer *layer = &a->kind->layers[a->layer];
-    size_t lists = (size_t)layer->nodes.count * tn_houses_lengths(h);
-    for (size_t i = 0; i < lists; i++) {
-        keep_best(h, &layer->best[i]);
-        a->pairs += layer->best[i].count;
-        if (h->aim == TN_HOUSES_FRONT && layer->best[i].count > TN_FRONT_MAX)
+    tn_value_counts *values = element;
+    (void)layer;
+    (void)state;
+    for (uint32_t i = 0; i < tn_houses_lengths(h); i++) {
+        keep_best(h, &values[i]);
+        a->pairs += values[i].count;
+        if (h->aim == TN_HOUSES_FRONT && values[i].count > TN_FRONT_MAX)
             return too_long_a_front(error);
     }
     return a->pairs > h->max_states ? tn_houses_too_many_values(h, error) : TN_OK;
@@ -96,20 +99,19 @@ static tn_status finish_layer(tn_aiming *a, tn_error *error)
 
 tn_status tn_houses_aim_kind(const tn_houses *h, tn_houses_kind *kind, tn_error *error)
 {
-    tn_aiming a = {.houses = h, .kind = kind};
-    tn_status status = TN_OK;
+    static const tn_walk_algebra values = {.zero = zero_values, .add = add_ahead, .settle = keep_aimed};
+    tn_aiming a = {.houses = h};
+    tn_houses_layers l;
     mpz_init(a.times);
-    for (a.layer = h->high + 1; status == TN_OK && a.layer-- > 0;) {
-        tn_houses_layer *layer = &kind->layers[a.layer];
-        layer->best = calloc(tn_size_of(layer->nodes.count, tn_houses_lengths(h)) + 1, sizeof *layer->best);
-        status = layer->best ? TN_OK : tn_fail_memory(error);
-        if (status == TN_OK && a.layer >= h->low)
-            status = tn_houses_expand(h, kind, a.layer, true, add_end, &a, error);
-        if (status == TN_OK && a.layer < h->high)
-            status = tn_houses_expand(h, kind, a.layer, false, add_ahead, &a, error);
-        if (status == TN_OK)
-            status = finish_layer(&a, error);
+    const tn_key_question aim = {&values, add_end, &a, tn_houses_lengths(h) * sizeof(tn_value_counts)};
+    tn_status status = tn_houses_layers_begin(&l, h, kind, error);
+    if (status == TN_OK)
+        status = tn_key_walk_backward(&l.walk, &aim, error);
+    for (uint32_t k = 0; l.walk.backward && k <= l.walk.last; k++) {
+        kind->layers[k].best = (tn_value_counts *)(void *)l.walk.backward[k];
+        l.walk.backward[k] = NULL;
     }
+    tn_key_walk_clear(&l.walk, NULL, NULL);
     mpz_clear(a.times);
     return status;
 }

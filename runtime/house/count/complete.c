@@ -8,25 +8,28 @@
 
 #define WORST ((tn_int128)INT64_MAX << 63)
 
-/* After so many trays: each node with each place of the machine. Counts are of the choices that lead there, and of the
- * houses that go on from there and complete the plan; values the best of these. */
-typedef struct tn_joint_layer {
-    tn_numbering joints; /* node << 32 | machine */
-    uint32_t *next;      /* [joints]: the next of the same node, or UINT32_MAX */
-    uint32_t *first;     /* [nodes] */
-    mpz_t *before, *after;
-    tn_int128 *best_before, *best_after;
-    size_t room;
-} tn_joint_layer;
+/* A joint is a node with a place of the machine. Its element, forwards, is of the choices that lead there; backwards of
+ * the houses that go on from there and complete the plan. best: the best value of these. */
+typedef struct tn_joint {
+    mpz_t count;
+    tn_int128 best;
+} tn_joint;
+
+/* The joints of a layer by their nodes. */
+typedef struct tn_joint_lists {
+    uint32_t *next;  /* [joints]: the next of the same node, or UINT32_MAX */
+    uint32_t *first; /* [nodes] */
+} tn_joint_lists;
 
 typedef struct tn_completing {
     const tn_houses *houses;
     tn_houses_kind *kind;
     tn_completer pattern;
     tn_interner machines; /* {placed, gap, earlier in two words} */
-    uint32_t layer;
-    tn_joint_layer *layers;               /* [high + 1] */
-    uint64_t joints;                      /* of all layers */
+    tn_numbering *joints; /* [high + 1]: node << 32 | machine */
+    tn_key_walk walk;
+    tn_joint_lists lists;                 /* of the layer at hand */
+    uint64_t joint_count;                 /* of all layers before the next */
     mpz_t *placed;                        /* [items][trays of the schema] */
     tn_int128 *best_placed, *best_values; /* of the same; [items][values of the schema] */
     mpz_t one;
@@ -48,17 +51,6 @@ static tn_machine machine_at(const tn_completing *c, uint64_t joint)
     return (tn_machine){key[0], key[1], (uint64_t)key[3] << 32 | key[2]};
 }
 
-static void clear_layer(tn_joint_layer *layer)
-{
-    tn_integers_free(layer->before, layer->room);
-    tn_integers_free(layer->after, layer->room);
-    tn_numbering_clear(&layer->joints);
-    free(layer->next);
-    free(layer->first);
-    free(layer->best_before);
-    free(layer->best_after);
-}
-
 static tn_int128 *worst_new(size_t count)
 {
     tn_int128 *values = malloc((count + 1) * sizeof *values);
@@ -67,28 +59,22 @@ static tn_int128 *worst_new(size_t count)
     return values;
 }
 
-/* Room for what is known of the joints, once all are met; they are listed by their nodes. */
-static tn_status make_layer(const tn_completing *c, uint32_t at, tn_error *error)
+static bool list_joints(tn_completing *c, uint32_t layer)
 {
-    tn_joint_layer *layer = &c->layers[at];
-    size_t nodes = c->kind->layers[at].nodes.count;
-    layer->room = layer->joints.count;
-    layer->next = malloc((layer->room + 1) * sizeof *layer->next);
-    layer->first = malloc((nodes + 1) * sizeof *layer->first);
-    layer->before = tn_integers_new(layer->room);
-    layer->after = tn_integers_new(layer->room);
-    layer->best_before = worst_new(layer->room);
-    layer->best_after = worst_new(layer->room);
-    if (!layer->next || !layer->first || !layer->before || !layer->after || !layer->best_before || !layer->best_after)
-        return tn_fail_memory(error);
+    const tn_numbering *joints = &c->joints[layer];
+    size_t nodes = c->kind->layers[layer].nodes.count;
+    c->lists.next = malloc(((size_t)joints->count + 1) * sizeof *c->lists.next);
+    c->lists.first = malloc((nodes + 1) * sizeof *c->lists.first);
+    if (!c->lists.next || !c->lists.first)
+        return false;
     for (size_t i = 0; i < nodes; i++)
-        layer->first[i] = UINT32_MAX;
-    for (uint32_t i = layer->joints.count; i-- > 0;) {
-        uint32_t node = (uint32_t)(layer->joints.keys[i] >> 32);
-        layer->next[i] = layer->first[node];
-        layer->first[node] = i;
+        c->lists.first[i] = UINT32_MAX;
+    for (uint32_t i = joints->count; i-- > 0;) {
+        uint32_t node = (uint32_t)(joints->keys[i] >> 32);
+        c->lists.next[i] = c->lists.first[node];
+        c->lists.first[node] = i;
     }
-    return TN_OK;
+    return true;
 }
 
 static tn_status too_many(const tn_completing *c, tn_error *error)
@@ -104,42 +90,100 @@ static void take_better(tn_int128 *best, tn_int128 value)
     *best = value < *best ? value : *best;
 }
 
-/* ---- steps */
+/* ---- the graph: steps of the houses with those of the machine */
 
-/* A step of the houses with one of the machine. to: among the joints behind it. */
 typedef struct tn_joint_step {
-    uint32_t from, to;
     bool places;
     uint32_t item;
     const tn_houses_edge *edge;
 } tn_joint_step;
 
-typedef tn_status tn_take_step(tn_completing *c, const tn_joint_step *step, tn_error *error);
-
-static tn_status each_way(tn_completing *c, const tn_houses_edge *edge, tn_take_step *take, tn_error *error)
+static tn_numbering *joints_of(void *context, uint32_t layer)
 {
-    const tn_joint_layer *layer = &c->layers[c->layer];
-    uint32_t node = tn_number_find(&c->kind->layers[c->layer + 1].nodes, (uint64_t)edge->plan << 32 | edge->state);
+    return &((tn_completing *)context)->joints[layer];
+}
+
+static tn_status each_way(void *context, const tn_houses_edge *edge, tn_error *error)
+{
+    tn_completing *c = context;
+    uint32_t layer = c->walk.layer;
+    uint32_t node = tn_number_find(&c->kind->layers[layer + 1].nodes, (uint64_t)edge->plan << 32 | edge->state);
     tn_status status = TN_OK;
-    for (uint32_t i = layer->first[edge->from]; status == TN_OK && i != UINT32_MAX; i = layer->next[i]) {
-        tn_machine m = machine_at(c, layer->joints.keys[i]);
+    for (uint32_t i = c->lists.first[edge->from]; status == TN_OK && i != UINT32_MAX; i = c->lists.next[i]) {
+        tn_machine m = machine_at(c, c->joints[layer].keys[i]);
         tn_machine_way ways[2];
         size_t count = tn_machine_ways(&c->pattern, m, c->pattern.fits[edge->tray], ways);
         for (size_t w = 0; status == TN_OK && w < count; w++) {
             uint32_t machine = number_machine(c, ways[w].to);
-            uint32_t to = machine == UINT32_MAX
-                              ? machine
-                              : tn_number(&c->layers[c->layer + 1].joints, (uint64_t)node << 32 | machine);
-            const tn_joint_step step = {i, to, ways[w].places, m.placed, edge};
-            status = to == UINT32_MAX ? tn_fail_memory(error) : take(c, &step, error);
+            const tn_joint_step step = {ways[w].places, m.placed, edge};
+            status = machine == UINT32_MAX
+                         ? tn_fail_memory(error)
+                         : tn_key_walk_edge(&c->walk, i, (uint64_t)node << 32 | machine, &step, error);
         }
     }
     return status;
 }
 
-static tn_status meet(tn_completing *c, const tn_joint_step *step, tn_error *error)
+static tn_status each_end(void *context, const tn_houses_edge *edge, tn_error *error)
 {
-    return c->joints + step->to > c->houses->max_states ? too_many(c, error) : TN_OK;
+    tn_completing *c = context;
+    tn_status status = TN_OK;
+    for (uint32_t i = c->lists.first[edge->from]; status == TN_OK && i != UINT32_MAX; i = c->lists.next[i])
+        if (machine_at(c, c->joints[c->walk.layer].keys[i]).placed == c->pattern.items)
+            status = tn_key_walk_end(&c->walk, i, edge, error);
+    return status;
+}
+
+static tn_status show(tn_completing *c, uint32_t layer, bool end, tn_error *error)
+{
+    tn_status status = list_joints(c, layer) ? TN_OK : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_houses_expand(c->houses, c->kind, layer, end, end ? each_end : each_way, c, error);
+    free(c->lists.next);
+    free(c->lists.first);
+    c->lists = (tn_joint_lists){0};
+    return status;
+}
+
+static tn_status show_edges(void *context, uint32_t layer, tn_key_walk *walk, tn_error *error)
+{
+    tn_completing *c = context;
+    c->joint_count += walk->backwards ? 0 : c->joints[layer].count;
+    return show(c, layer, false, error);
+}
+
+static tn_status show_ends(void *context, uint32_t layer, tn_key_walk *walk, tn_error *error)
+{
+    const tn_completing *c = context;
+    (void)walk;
+    return layer >= c->houses->low ? show(context, layer, true, error) : TN_OK;
+}
+
+/* ---- what is counted */
+
+static void zero_joint(const void *context, void *element)
+{
+    tn_joint *joint = element;
+    (void)context;
+    mpz_init(joint->count);
+    joint->best = WORST;
+}
+
+static void clear_joint(void *element)
+{
+    mpz_clear(((tn_joint *)element)->count);
+}
+
+static tn_status start(void *context, uint32_t layer, uint32_t state, void *element, tn_error *error)
+{
+    const tn_completing *c = context;
+    tn_joint *joint = element;
+    (void)layer;
+    (void)state;
+    (void)error;
+    mpz_set_ui(joint->count, 1);
+    joint->best = c->houses->measures ? tn_houses_plan_start(c->houses).by[0] : 0;
+    return TN_OK;
 }
 
 /* one := the choices of the step, so many times. */
@@ -149,117 +193,85 @@ static void times(tn_completing *c, const mpz_t count, const tn_houses_edge *edg
     mpz_mul_ui(c->one, c->one, edge->times);
 }
 
-static tn_status count_forwards(tn_completing *c, const tn_joint_step *step, tn_error *error)
+static tn_status count_forwards(void *context, void *sum, const void *element, const tn_walk_edge *at, tn_error *error)
 {
-    const tn_joint_layer *layer = &c->layers[c->layer], *next = &c->layers[c->layer + 1];
-    (void)error;
-    times(c, layer->before[step->from], step->edge);
-    mpz_add(next->before[step->to], next->before[step->to], c->one);
-    take_better(&next->best_before[step->to], layer->best_before[step->from] + step->edge->gain.by[0]);
+    tn_completing *c = context;
+    tn_joint *to = sum;
+    const tn_joint *from = element;
+    const tn_houses_edge *edge = ((const tn_joint_step *)at->label)->edge;
+    if (c->joint_count + at->to > c->houses->max_states)
+        return too_many(c, error);
+    times(c, from->count, edge);
+    mpz_add(to->count, to->count, c->one);
+    take_better(&to->best, from->best + edge->gain.by[0]);
     return TN_OK;
 }
 
 /* Not every joint leads to a house that completes the plan: such have no best. */
-static tn_status count_backwards(tn_completing *c, const tn_joint_step *step, tn_error *error)
+static tn_status count_backwards(void *context, void *sum, const void *element, const tn_walk_edge *at, tn_error *error)
 {
-    const tn_joint_layer *layer = &c->layers[c->layer], *next = &c->layers[c->layer + 1];
-    size_t at = (size_t)step->item * c->houses->form->schema->tray_count + step->edge->tray;
+    tn_completing *c = context;
+    tn_joint *from = sum;
+    const tn_joint *to = element, *before = tn_key_walk_forward_of(&c->walk, at->layer, at->from, sizeof *before);
+    const tn_joint_step *step = at->label;
+    size_t placed = (size_t)step->item * c->houses->form->schema->tray_count + step->edge->tray;
     (void)error;
-    if (mpz_sgn(next->after[step->to]) == 0)
+    if (mpz_sgn(to->count) == 0)
         return TN_OK;
-    tn_int128 rest = step->edge->gain.by[0] + next->best_after[step->to];
-    times(c, next->after[step->to], step->edge);
-    mpz_add(layer->after[step->from], layer->after[step->from], c->one);
-    take_better(&layer->best_after[step->from], rest);
+    tn_int128 rest = step->edge->gain.by[0] + to->best;
+    times(c, to->count, step->edge);
+    mpz_add(from->count, from->count, c->one);
+    take_better(&from->best, rest);
     if (!step->places)
         return TN_OK;
-    mpz_mul(c->one, c->one, layer->before[step->from]);
-    mpz_addmul_ui(c->placed[at], c->one, c->kind->sections);
-    take_better(&c->best_placed[at], layer->best_before[step->from] + rest);
+    mpz_mul(c->one, c->one, before->count);
+    mpz_addmul_ui(c->placed[placed], c->one, c->kind->sections);
+    take_better(&c->best_placed[placed], before->best + rest);
     return TN_OK;
 }
 
-static tn_status see_meet(void *context, const tn_houses_edge *edge, tn_error *error)
+static tn_status count_end(void *context, void *element, const tn_walk_edge *at, tn_error *error)
 {
-    return each_way(context, edge, meet, error);
-}
-
-static tn_status see_forwards(void *context, const tn_houses_edge *edge, tn_error *error)
-{
-    return each_way(context, edge, count_forwards, error);
-}
-
-static tn_status see_backwards(void *context, const tn_houses_edge *edge, tn_error *error)
-{
-    return each_way(context, edge, count_backwards, error);
-}
-
-static tn_status see_end(void *context, const tn_houses_edge *edge, tn_error *error)
-{
-    const tn_completing *c = context;
-    const tn_joint_layer *layer = &c->layers[c->layer];
+    tn_joint *joint = element;
+    const tn_houses_edge *edge = at->label;
+    (void)context;
     (void)error;
-    for (uint32_t i = layer->first[edge->from]; i != UINT32_MAX; i = layer->next[i]) {
-        if (machine_at(c, layer->joints.keys[i]).placed < c->pattern.items)
-            continue;
-        mpz_add_ui(layer->after[i], layer->after[i], edge->times);
-        take_better(&layer->best_after[i], edge->gain.by[0]);
-    }
+    mpz_add_ui(joint->count, joint->count, edge->times);
+    take_better(&joint->best, edge->gain.by[0]);
     return TN_OK;
 }
 
 /* ---- a section */
 
-static tn_status go_forwards(tn_completing *c, tn_error *error)
-{
-    const tn_houses *h = c->houses;
-    uint32_t machine = number_machine(c, tn_machine_start(&c->pattern));
-    if (machine == UINT32_MAX || tn_number(&c->layers[0].joints, machine) == UINT32_MAX)
-        return tn_fail_memory(error);
-    tn_status status = make_layer(c, 0, error);
-    if (status == TN_OK) {
-        mpz_set_ui(c->layers[0].before[0], 1);
-        c->layers[0].best_before[0] = h->measures ? tn_houses_plan_start(h).by[0] : 0;
-    }
-    for (c->layer = 0; status == TN_OK && c->layer < h->high; c->layer++) {
-        c->joints += c->layers[c->layer].joints.count;
-        status = tn_houses_expand(h, c->kind, c->layer, false, see_meet, c, error);
-        if (status == TN_OK)
-            status = make_layer(c, c->layer + 1, error);
-        if (status == TN_OK)
-            status = tn_houses_expand(h, c->kind, c->layer, false, see_forwards, c, error);
-    }
-    return status;
-}
-
-static tn_status go_backwards(tn_completing *c, tn_error *error)
-{
-    const tn_houses *h = c->houses;
-    tn_status status = TN_OK;
-    for (c->layer = h->high + 1; status == TN_OK && c->layer-- > 0;) {
-        if (c->layer >= h->low)
-            status = tn_houses_expand(h, c->kind, c->layer, true, see_end, c, error);
-        if (status == TN_OK && c->layer < h->high)
-            status = tn_houses_expand(h, c->kind, c->layer, false, see_backwards, c, error);
-    }
-    return status;
-}
-
 static tn_status complete_kind(tn_completing *c, tn_error *error)
 {
-    uint32_t layers = c->houses->high + 1;
-    c->layers = calloc(layers, sizeof *c->layers);
-    c->joints = 0;
-    tn_status status = c->layers ? go_forwards(c, error) : tn_fail_memory(error);
+    static const tn_key_graph graph = {joints_of, show_edges, show_ends};
+    static const tn_walk_algebra before = {
+        .zero = zero_joint, .clear = clear_joint, .one = start, .add = count_forwards};
+    static const tn_walk_algebra after = {.zero = zero_joint, .clear = clear_joint, .add = count_backwards};
+    uint32_t last = c->houses->high, machine = number_machine(c, tn_machine_start(&c->pattern));
+    c->walk = (tn_key_walk){.graph = &graph, .graph_context = c, .last = last, .keeps = true};
+    c->joints = calloc((size_t)last + 1, sizeof *c->joints);
+    c->joint_count = 0;
+    if (!c->joints || machine == UINT32_MAX)
+        return tn_fail_memory(error);
+    tn_status status = tn_key_walk_begin(&c->walk, machine, error);
     if (status == TN_OK)
-        status = go_backwards(c, error);
+        status = tn_key_walk_forward(&c->walk, &(tn_key_question){&before, NULL, c, sizeof(tn_joint)}, error);
     if (status == TN_OK)
-        mpz_addmul_ui(c->out->plans, c->layers[0].after[0], c->kind->sections);
-    for (uint32_t k = 0; c->layers && k < layers; k++)
-        clear_layer(&c->layers[k]);
-    free(c->layers);
-    c->layers = NULL;
+        status = tn_key_walk_backward(&c->walk, &(tn_key_question){&after, count_end, c, sizeof(tn_joint)}, error);
+    if (status == TN_OK)
+        mpz_addmul_ui(c->out->plans, ((tn_joint *)(void *)c->walk.backward[0])->count, c->kind->sections);
+    tn_key_walk_clear(&c->walk, &before, &after);
     return status;
+}
+
+static void clear_kind(tn_completing *c)
+{
+    for (uint32_t k = 0; c->joints && k <= c->houses->high; k++)
+        tn_numbering_clear(&c->joints[k]);
+    free(c->joints);
+    c->joints = NULL;
 }
 
 /* ---- the answer */
@@ -311,6 +323,7 @@ tn_status tn_houses_complete(tn_houses *h, const tn_open_plan *open, tn_completi
     for (size_t i = 0; status == TN_OK && i < h->kind_count; i++) {
         c.kind = &h->kinds[i];
         status = complete_kind(&c, error);
+        clear_kind(&c);
     }
     if (status == TN_OK)
         add_values(&c);

@@ -2,11 +2,12 @@
 #ifndef TARTAN_HOUSE_COUNT_DATA_H
 #define TARTAN_HOUSE_COUNT_DATA_H
 
+#include "runtime/automata/walk.h"
 #include "runtime/house/count/houses.h"
+#include "runtime/house/count/section.h"
 #include "runtime/house/frontier/states.h"
 #include "runtime/house/rule/asked.h"
-#include "runtime/house/variant/section.h"
-#include "runtime/house/variant/variant.h"
+#include "runtime/house/rule/furnish.h"
 
 /* How many there are of each value, in steps of each measure, by the first measure, then the next: ascending. */
 typedef struct tn_value_count {
@@ -112,8 +113,9 @@ struct tn_houses {
     uint32_t many_slices;    /* along one plan, with fewer, a step as a whole is quicker than one in stages */
     bool whole_steps;        /* these are so few that stages would cost more */
     tn_houses_aim aim;
-    uint64_t wanted;      /* houses, of the least values */
-    tn_value_counts best; /* of all houses, as far as they are aimed at */
+    uint64_t wanted;         /* houses, of the least values */
+    tn_value_counts best;    /* of all houses, as far as they are aimed at */
+    tn_furnisher *furnisher; /* or NULL: not asked for */
 };
 
 /* The kind that a section is of, NULL if no such is known. */
@@ -142,6 +144,21 @@ typedef tn_status tn_houses_edge_seen(void *context, const tn_houses_edge *edge,
  * end of the row. `state` of a step is what the next layer is of. */
 tn_status tn_houses_expand(const tn_houses *houses, tn_houses_kind *kind, uint32_t layer, bool end,
                            tn_houses_edge_seen *seen, void *context, tn_error *error);
+
+/* The layers of a kind as a graph of keys (walk.h); the labels of its edges are tn_houses_edge. */
+typedef struct tn_houses_layers {
+    const tn_houses *houses;
+    tn_houses_kind *kind;
+    tn_key_walk walk;
+} tn_houses_layers;
+
+/* Makes the layers ready for a walk, with the first node; if they are there already, the walk is over their nodes. */
+tn_status tn_houses_layers_begin(tn_houses_layers *layers, const tn_houses *houses, tn_houses_kind *kind,
+                                 tn_error *error);
+
+/* The same forwards, from the first node on, once. */
+tn_status tn_houses_go_forward(const tn_houses *houses, tn_houses_kind *kind, const tn_key_question *question,
+                               tn_error *error);
 
 /* Keeps a step of a layer that counting goes, since ranks go the same ones backwards. If there are too many, those
  * of the layer are forgotten. */
@@ -185,17 +202,8 @@ int64_t tn_houses_shown(const tn_houses *houses, uint32_t measure, tn_int128 val
 /* Counts the houses of one section by the values of the measure. */
 tn_status tn_houses_spread_kind(const tn_houses *houses, tn_houses_kind *kind, tn_error *error);
 
-/* Houses of these values are looked for. rules: NULL if a house's functions say that it has them. */
-typedef struct tn_houses_wanted {
-    const tn_houses *houses;
-    tn_house_rules *rules;
-    const tn_house_gain *values;
-} tn_houses_wanted;
-
-/* Calls `each` with the house in all combinations of tiles with which it has the values, in order, until *stop. tiles:
- * as of tn_house_faced. */
-tn_status tn_houses_furnish(const tn_houses_wanted *wanted, tn_house *house, const size_t *tiles, tn_house_each *each,
-                            void *context, bool *stop, tn_error *error);
+/* What completes houses by their tiles; made when it is asked for first. */
+tn_status tn_houses_furnisher(tn_houses *houses, tn_furnisher **furnisher, tn_error *error);
 
 /* Finds the values that are aimed at, from the nodes that counting has met (best.c). */
 tn_status tn_houses_aim_kind(const tn_houses *houses, tn_houses_kind *kind, tn_error *error);

@@ -469,6 +469,72 @@ tn_status tn_houses_expand_from(const tn_houses *houses, tn_houses_kind *kind, u
     return expand(houses, kind, layer, false, here, seen, context, error);
 }
 
+/* ==== the layers as a graph of keys */
+
+static tn_numbering *nodes_of(void *context, uint32_t layer)
+{
+    const tn_houses_layers *l = context;
+    return &l->kind->layers[layer].nodes;
+}
+
+static tn_status show_edge(void *context, const tn_houses_edge *edge, tn_error *error)
+{
+    return tn_key_walk_edge(context, edge->from, (uint64_t)edge->plan << 32 | edge->state, edge, error);
+}
+
+/* Backwards, the steps that counting kept are shown again, once. */
+static tn_status show_edges(void *context, uint32_t layer, tn_key_walk *walk, tn_error *error)
+{
+    const tn_houses_layers *l = context;
+    const tn_kept_steps *kept = &l->kind->layers[layer].kept;
+    tn_status status = TN_OK;
+    if (!walk->backwards || !kept->all)
+        return tn_houses_expand(l->houses, l->kind, layer, false, show_edge, walk, error);
+    for (size_t i = 0; status == TN_OK && i < kept->count; i++) {
+        const tn_houses_edge edge = {.from = kept->items[i].from, .ways = 1, .times = kept->items[i].times};
+        status = tn_key_walk_edge_to(walk, edge.from, kept->items[i].to, &edge, error);
+    }
+    tn_houses_forget_steps(l->kind, layer);
+    return status;
+}
+
+static tn_status show_end(void *context, const tn_houses_edge *edge, tn_error *error)
+{
+    return tn_key_walk_end(context, edge->from, edge, error);
+}
+
+static tn_status show_ends(void *context, uint32_t layer, tn_key_walk *walk, tn_error *error)
+{
+    const tn_houses_layers *l = context;
+    uint32_t stages = tn_houses_stages(l->houses, l->kind);
+    if (layer % stages != 0 || layer < l->houses->low * stages)
+        return TN_OK;
+    return tn_houses_expand(l->houses, l->kind, layer, true, show_end, walk, error);
+}
+
+static const tn_key_graph graph = {nodes_of, show_edges, show_ends};
+
+tn_status tn_houses_layers_begin(tn_houses_layers *l, const tn_houses *houses, tn_houses_kind *kind, tn_error *error)
+{
+    uint32_t last = houses->high * tn_houses_stages(houses, kind);
+    *l = (tn_houses_layers){.houses = houses, .kind = kind};
+    l->walk = (tn_key_walk){.graph = &graph, .graph_context = l, .last = last};
+    if (!kind->layers)
+        kind->layers = calloc((size_t)last + 1, sizeof *kind->layers);
+    return kind->layers ? tn_key_walk_begin(&l->walk, TN_FRONTIER_NONE, error) : tn_fail_memory(error);
+}
+
+tn_status tn_houses_go_forward(const tn_houses *houses, tn_houses_kind *kind, const tn_key_question *question,
+                               tn_error *error)
+{
+    tn_houses_layers l;
+    tn_status status = tn_houses_layers_begin(&l, houses, kind, error);
+    if (status == TN_OK)
+        status = tn_key_walk_forward(&l.walk, question, error);
+    tn_key_walk_clear(&l.walk, question->algebra, NULL);
+    return status;
+}
+
 /* ==== steps that are kept
  *
  * Keeps the steps that counting went: ranks go the same ones backwards. */

@@ -48,84 +48,94 @@ tn_status tn_houses_check_interfaces(const tn_houses *h, const tn_houses_kind *k
 
 /* ---- counting forwards */
 
-/* counts: two numbers a node, houses and those without their tiles. */
-typedef struct tn_forward {
+/* Of a node: the choices that lead there, and those without their tiles. */
+typedef struct tn_node_counts {
+    mpz_t houses, faced;
+} tn_node_counts;
+
+typedef struct tn_counting {
     const tn_houses *houses;
     tn_houses_kind *kind;
-    uint32_t layer, stages;
-    mpz_t *counts, *next;
-    size_t count, next_count, next_room; /* in numbers */
-    uint64_t nodes;                      /* of all layers of states */
+    uint32_t stages, layer; /* layer: 1 and the one that is gone on from; 0: none yet */
+    uint64_t nodes;         /* of all layers of states so far */
     mpz_t one;
-} tn_forward;
+} tn_counting;
 
-static tn_status lead_on(void *context, const tn_houses_edge *edge, tn_error *error)
+static void zero_counts(const void *context, void *element)
 {
-    tn_forward *f = context;
-    uint32_t to = tn_number(&f->kind->layers[f->layer + 1].nodes, (uint64_t)edge->plan << 32 | edge->state);
-    if (to == UINT32_MAX || !tn_array_reserve(&f->next, &f->next_room, f->next_count, 2, sizeof *f->next))
-        return tn_fail_memory(error);
-    for (; f->next_count < 2 * ((size_t)to + 1); f->next_count++)
-        mpz_init(f->next[f->next_count]);
-    tn_status status = check_nodes(f->houses, f->kind, f->layer + 1, f->nodes + to, error);
-    if (status != TN_OK)
-        return status;
-    const uint64_t times[2] = {edge->times, edge->faced};
-    for (size_t i = 0; i < 2; i++) {
-        mpz_mul_ui(f->one, f->counts[2 * (size_t)edge->from + i], edge->ways);
-        mpz_addmul_ui(f->next[2 * (size_t)to + i], f->one, times[i]);
-    }
-    return tn_houses_keep_step(f->houses, f->kind, f->layer, to, edge, error);
+    tn_node_counts *counts = element;
+    (void)context;
+    mpz_inits(counts->houses, counts->faced, NULL);
 }
 
-static tn_status come_to_end(void *context, const tn_houses_edge *edge, tn_error *error)
+static void clear_counts(void *element)
 {
-    tn_forward *f = context;
+    tn_node_counts *counts = element;
+    mpz_clears(counts->houses, counts->faced, NULL);
+}
+
+static tn_status one_of_counts(void *context, uint32_t layer, uint32_t state, void *element, tn_error *error)
+{
+    tn_node_counts *counts = element;
+    (void)context;
+    (void)layer;
+    (void)state;
     (void)error;
-    mpz_addmul_ui(f->kind->houses[f->layer / f->stages - f->houses->low], f->counts[2 * (size_t)edge->from],
-                  edge->times);
-    mpz_addmul_ui(f->kind->faced, f->counts[2 * (size_t)edge->from + 1], edge->faced);
+    mpz_set_ui(counts->houses, 1);
+    mpz_set_ui(counts->faced, 1);
     return TN_OK;
 }
 
-static tn_status count_layer(tn_forward *f, tn_error *error)
+static void begin_layer(tn_counting *c, uint32_t layer)
 {
-    const tn_houses *h = f->houses;
-    bool states = f->layer % f->stages == 0;
-    tn_status status = TN_OK;
-    if (states && f->layer >= h->low * f->stages)
-        status = tn_houses_expand(h, f->kind, f->layer, true, come_to_end, f, error);
-    f->kind->layers[f->layer].kept.all = !h->measures && !h->trays_matter;
-    f->nodes += states ? f->kind->layers[f->layer].nodes.count : 0;
-    if (status == TN_OK && f->layer < h->high * f->stages)
-        status = tn_houses_expand(h, f->kind, f->layer, false, lead_on, f, error);
-    tn_integers_free(f->counts, f->count);
-    f->counts = f->next;
-    f->count = f->next_count;
-    f->next = NULL;
-    f->next_count = f->next_room = 0;
-    return status;
+    tn_houses_layer *at = &c->kind->layers[layer];
+    at->kept.all = !c->houses->measures && !c->houses->trays_matter;
+    c->nodes += layer % c->stages == 0 ? at->nodes.count : 0;
+    c->layer = layer + 1;
 }
+
+static tn_status add_counts(void *context, void *sum, const void *element, const tn_walk_edge *at, tn_error *error)
+{
+    tn_counting *c = context;
+    tn_node_counts *to = sum;
+    const tn_node_counts *from = element;
+    const tn_houses_edge *edge = at->label;
+    if (c->layer != at->layer + 1)
+        begin_layer(c, at->layer);
+    tn_status status = check_nodes(c->houses, c->kind, at->layer + 1, c->nodes + at->to, error);
+    if (status != TN_OK)
+        return status;
+    mpz_mul_ui(c->one, from->houses, edge->ways);
+    mpz_addmul_ui(to->houses, c->one, edge->times);
+    mpz_mul_ui(c->one, from->faced, edge->ways);
+    mpz_addmul_ui(to->faced, c->one, edge->faced);
+    return tn_houses_keep_step(c->houses, c->kind, at->layer, at->to, edge, error);
+}
+
+static tn_status end_counts(void *context, void *element, const tn_walk_edge *at, tn_error *error)
+{
+    const tn_counting *c = context;
+    const tn_node_counts *from = element;
+    const tn_houses_edge *edge = at->label;
+    (void)error;
+    mpz_addmul_ui(c->kind->houses[at->layer / c->stages - c->houses->low], from->houses, edge->times);
+    mpz_addmul_ui(c->kind->faced, from->faced, edge->faced);
+    return TN_OK;
+}
+
+static const tn_walk_algebra counts = {
+    .zero = zero_counts, .clear = clear_counts, .one = one_of_counts, .add = add_counts};
 
 static tn_status count_kind(tn_houses *h, tn_houses_kind *kind, tn_error *error)
 {
-    tn_forward f = {.houses = h, .kind = kind, .stages = tn_houses_stages(h, kind), .count = 2};
-    tn_status status = TN_OK;
-    kind->layers = calloc(tn_size_of(h->high, f.stages) + 1, sizeof *kind->layers);
+    tn_counting c = {.houses = h, .kind = kind, .stages = tn_houses_stages(h, kind)};
     kind->houses = tn_integers_new(tn_houses_lengths(h));
-    f.counts = tn_integers_new(f.count);
-    if (!kind->layers || !kind->houses || !f.counts ||
-        tn_number(&kind->layers[0].nodes, TN_FRONTIER_NONE) == UINT32_MAX) {
-        tn_integers_free(f.counts, f.count);
+    if (!kind->houses)
         return tn_fail_memory(error);
-    }
-    mpz_init(f.one);
-    mpz_set_ui(f.counts[0], 1);
-    mpz_set_ui(f.counts[1], 1);
-    for (f.layer = 0; status == TN_OK && f.layer <= h->high * f.stages; f.layer++)
-        status = count_layer(&f, error);
-    tn_integers_free(f.counts, f.count);
-    mpz_clear(f.one);
+    mpz_init(c.one);
+    const tn_key_question how_many = {&counts, end_counts, &c, sizeof(tn_node_counts)};
+    tn_status status = tn_houses_go_forward(h, kind, &how_many, error);
+    mpz_clear(c.one);
     tn_frontier_entered_forget(&kind->frontier->stages.entered);
     return status;
 }
@@ -135,23 +145,22 @@ static tn_status count_kind(tn_houses *h, tn_houses_kind *kind, tn_error *error)
 typedef struct tn_scout {
     const tn_houses *houses;
     tn_houses_kind *kind;
-    uint32_t layer;
     bool any; /* does a house come to its end? */
 } tn_scout;
 
-static tn_status come_by(void *context, const tn_houses_edge *edge, tn_error *error)
+static tn_status come_by(void *context, void *sum, const void *element, const tn_walk_edge *at, tn_error *error)
 {
     const tn_scout *s = context;
-    uint32_t to = tn_number(&s->kind->layers[s->layer + 1].nodes, (uint64_t)edge->plan << 32 | edge->state);
-    if (to == UINT32_MAX)
-        return tn_fail_memory(error);
-    return check_nodes(s->houses, s->kind, s->layer + 1, to, error);
+    (void)sum;
+    (void)element;
+    return check_nodes(s->houses, s->kind, at->layer + 1, at->to, error);
 }
 
-static tn_status pass_end(void *context, const tn_houses_edge *edge, tn_error *error)
+static tn_status pass_end(void *context, void *element, const tn_walk_edge *at, tn_error *error)
 {
     tn_scout *s = context;
-    (void)edge;
+    (void)element;
+    (void)at;
     (void)error;
     s->any = true;
     return TN_OK;
@@ -178,18 +187,9 @@ void tn_houses_layers_clear(const tn_houses *h, tn_houses_kind *kind)
 /* Goes through all states. *any: has the section houses, as far as is known? */
 static tn_status walk(const tn_houses *h, tn_houses_kind *kind, bool *any, tn_error *error)
 {
+    static const tn_walk_algebra meeting = {.add = come_by};
     tn_scout s = {.houses = h, .kind = kind};
-    uint32_t stages = tn_houses_stages(h, kind);
-    tn_status status = TN_OK;
-    kind->layers = calloc(tn_size_of(h->high, stages) + 1, sizeof *kind->layers);
-    if (!kind->layers || tn_number(&kind->layers[0].nodes, TN_FRONTIER_NONE) == UINT32_MAX)
-        return tn_fail_memory(error);
-    for (; status == TN_OK && s.layer <= h->high * stages; s.layer++) {
-        if (s.layer % stages == 0 && s.layer >= h->low * stages)
-            status = tn_houses_expand(h, kind, s.layer, true, pass_end, &s, error);
-        if (status == TN_OK && s.layer < h->high * stages)
-            status = tn_houses_expand(h, kind, s.layer, false, come_by, &s, error);
-    }
+    tn_status status = tn_houses_go_forward(h, kind, &(tn_key_question){&meeting, pass_end, &s, 0}, error);
     tn_houses_layers_clear(h, kind);
     *any = s.any;
     return status;
@@ -385,7 +385,7 @@ void tn_houses_free(tn_houses *h)
         tn_value_counts_clear(&kind->spread);
         tn_frontier_free(kind->frontier);
     }
-    tn_sections_free(&h->sections);
+    tn_furnisher_free(h->furnisher);
     tn_houses_plans_clear(h);
     tn_weighed_free(h->weighed);
     tn_value_counts_clear(&h->best);
@@ -393,6 +393,13 @@ void tn_houses_free(tn_houses *h)
     tn_houses_added_clear(h);
     free(h->kinds);
     free(h);
+}
+
+tn_status tn_houses_furnisher(tn_houses *h, tn_furnisher **furnisher, tn_error *error)
+{
+    tn_status status = h->furnisher ? TN_OK : tn_furnisher_new(h->form, h->library, &h->furnisher, error);
+    *furnisher = h->furnisher;
+    return status;
 }
 
 /* ---- numbers */
@@ -465,7 +472,7 @@ static tn_status recount_house(void *context, const tn_house *house, bool *stop,
     return status;
 }
 
-static tn_status recount_plans(recounting *r, tn_house_variants *variants, tn_error *error)
+static tn_status recount_plans(recounting *r, tn_house_listing *listing, tn_error *error)
 {
     const tn_houses *h = r->houses;
     const tn_tray *trays;
@@ -474,10 +481,10 @@ static tn_status recount_plans(recounting *r, tn_house_variants *variants, tn_er
     mpz_t from, to;
     mpz_inits(from, to, NULL);
     tn_library_kept(h->plans, TN_ALL_LENGTHS, to);
-    tn_status status = h->only ? tn_house_variants_each(variants, h->only, h->low, from, recount_house, r, error)
+    tn_status status = h->only ? tn_house_listing_each(listing, h->only, h->low, from, recount_house, r, error)
                                : tn_cursor_new(h->plans, from, to, &cursor, error);
     while (status == TN_OK && cursor && tn_cursor_next(cursor, &trays, &length))
-        status = tn_house_variants_each(variants, trays, length, from, recount_house, r, error);
+        status = tn_house_listing_each(listing, trays, length, from, recount_house, r, error);
     tn_cursor_free(cursor);
     mpz_clears(from, to, NULL);
     return status;
@@ -508,21 +515,21 @@ static tn_status compare(const recounting *r, uint64_t counted, tn_error *error)
 tn_status tn_houses_recount(const tn_houses *houses, uint64_t most, tn_error *error)
 {
     recounting r = {.houses = houses};
-    tn_house_variants *variants = NULL;
+    tn_house_listing *listing = NULL;
     mpz_t counted;
     mpz_init(counted);
     tn_houses_count(houses, TN_ALL_LENGTHS, counted);
     bool few = mpz_cmp_ui(counted, most) <= 0 && few_plans(houses, most);
     tn_status status = few ? tn_house_rules_new(houses->form, 0, &r.rules, error) : TN_OK;
     if (few && status == TN_OK)
-        status = tn_house_variants_new(houses->form, houses->library, 0, &variants, error);
+        status = tn_house_listing_new(houses->form, houses->library, 0, &listing, error);
     if (few && status == TN_OK)
-        status = recount_plans(&r, variants, error);
+        status = recount_plans(&r, listing, error);
     if (few && status == TN_OK)
         status = compare(&r, mpz_get_ui(counted), error);
     else if (status == TN_LIMIT)
         status = TN_OK; /* more work than one wants */
-    tn_house_variants_free(variants);
+    tn_house_listing_free(listing);
     tn_house_rules_free(r.rules);
     mpz_clear(counted);
     return status;

@@ -3,7 +3,7 @@
  * The row is read tray by tray. What has to be known between two trays is a state; the states that plans and houses
  * reach together are counted, layer by layer (runtime/house/frontier says what a state is). Sections that nothing tells
  * apart share the work. Past a limit of states it is TN_LIMIT (E1640), which names the clause that makes the most of
- * them; houses on one plan (variant.h) do not depend on it.
+ * them; houses beyond it can only be gone through (listing.h).
  *
  * A tn_houses belongs to one thread, and borrows the form and the library of plans.
  */
@@ -12,10 +12,10 @@
 
 #include <gmp.h>
 
+#include "runtime/house/count/listing.h"
 #include "runtime/house/frontier/frontier.h"
 #include "runtime/house/house.h"
 #include "runtime/house/measure/measure.h"
-#include "runtime/house/variant/variant.h"
 #include "runtime/plan/library/library.h"
 #include "runtime/plan/measure/complete.h"
 #include "runtime/plan/measure/distribution.h"

@@ -13,17 +13,38 @@
 typedef struct tn_spreading {
     const tn_houses *houses;
     tn_houses_kind *kind;
-    uint32_t layer;
-    tn_value_counts *here, *next; /* [nodes] */
-    size_t here_count, next_count, next_room;
-    uint64_t pairs; /* of nodes and values, of the next layer */
-    mpz_t times, one;
+    uint64_t turn;  /* 1 and the layer whose ends, or edges, are gone: with ends, 2 for each layer */
+    uint64_t pairs; /* of nodes and values, that these have made */
+    mpz_t times;
 } tn_spreading;
 
-static tn_status add_shifted(tn_spreading *s, tn_value_counts *to, const tn_houses_edge *edge, tn_error *error)
+static void zero_values(const void *context, void *element)
 {
-    const tn_value_counts *from = &s->here[edge->from];
+    (void)context;
+    *(tn_value_counts *)element = (tn_value_counts){0};
+}
+
+static void clear_values(void *element)
+{
+    tn_value_counts_clear(element);
+}
+
+static tn_status start_values(void *context, uint32_t layer, uint32_t state, void *element, tn_error *error)
+{
+    tn_spreading *s = context;
+    tn_house_gain start = tn_houses_plan_start(s->houses);
+    (void)layer;
+    (void)state;
+    mpz_set_ui(s->times, 1);
+    return tn_value_counts_add(element, &start, s->times) ? TN_OK : tn_fail_memory(error);
+}
+
+static tn_status add_shifted(tn_spreading *s, uint64_t turn, tn_value_counts *to, const tn_value_counts *from,
+                             const tn_houses_edge *edge, tn_error *error)
+{
     size_t before = to->count;
+    s->pairs = s->turn == turn ? s->pairs : 0;
+    s->turn = turn;
     mpz_set_ui(s->times, edge->ways);
     mpz_mul_ui(s->times, s->times, edge->times);
     if (!tn_value_counts_add_shifted(to, from, &edge->gain, s->times))
@@ -32,66 +53,29 @@ static tn_status add_shifted(tn_spreading *s, tn_value_counts *to, const tn_hous
     return s->pairs > s->houses->max_states ? tn_houses_too_many_values(s->houses, error) : TN_OK;
 }
 
-static tn_status lead_on(void *context, const tn_houses_edge *edge, tn_error *error)
+static tn_status add_values(void *context, void *sum, const void *element, const tn_walk_edge *at, tn_error *error)
 {
     tn_spreading *s = context;
-    uint32_t to = tn_number(&s->kind->layers[s->layer + 1].nodes, (uint64_t)edge->plan << 32 | edge->state);
-    if (to == UINT32_MAX || !tn_array_reserve(&s->next, &s->next_room, to, 1, sizeof *s->next))
-        return tn_fail_memory(error);
-    for (; s->next_count <= to; s->next_count++)
-        s->next[s->next_count] = (tn_value_counts){0};
     if (s->kind->frontier->states.count > s->houses->max_states)
         return tn_houses_too_many_values(s->houses, error);
-    return add_shifted(s, &s->next[to], edge, error);
+    return add_shifted(s, 2 * (uint64_t)at->layer + 2, sum, element, at->label, error);
 }
 
-static tn_status come_to_end(void *context, const tn_houses_edge *edge, tn_error *error)
+static tn_status end_values(void *context, void *element, const tn_walk_edge *at, tn_error *error)
 {
     tn_spreading *s = context;
-    return add_shifted(s, &s->kind->spread, edge, error);
-}
-
-static void clear_layer(tn_value_counts *counts, size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        tn_value_counts_clear(&counts[i]);
-    free(counts);
-}
-
-static tn_status spread_layer(tn_spreading *s, tn_error *error)
-{
-    const tn_houses *h = s->houses;
-    tn_status status = TN_OK;
-    s->pairs = 0;
-    if (s->layer >= h->low)
-        status = tn_houses_expand(h, s->kind, s->layer, true, come_to_end, s, error);
-    s->pairs = 0;
-    if (status == TN_OK && s->layer < h->high)
-        status = tn_houses_expand(h, s->kind, s->layer, false, lead_on, s, error);
-    clear_layer(s->here, s->here_count);
-    s->here = s->next;
-    s->here_count = s->next_count;
-    s->next = NULL;
-    s->next_count = s->next_room = 0;
-    return status;
+    return add_shifted(s, 2 * (uint64_t)at->layer + 1, &s->kind->spread, element, at->label, error);
 }
 
 tn_status tn_houses_spread_kind(const tn_houses *h, tn_houses_kind *kind, tn_error *error)
 {
-    tn_spreading s = {.houses = h, .kind = kind, .here_count = 1};
-    tn_status status = TN_OK;
-    mpz_inits(s.times, s.one, NULL);
-    mpz_set_ui(s.one, 1);
-    kind->layers = calloc((size_t)h->high + 1, sizeof *kind->layers);
-    s.here = calloc(1, sizeof *s.here);
-    tn_house_gain start = tn_houses_plan_start(h);
-    if (!kind->layers || !s.here || tn_number(&kind->layers[0].nodes, TN_FRONTIER_NONE) == UINT32_MAX ||
-        !tn_value_counts_add(s.here, &start, s.one))
-        status = tn_fail_memory(error);
-    for (; status == TN_OK && s.layer <= h->high; s.layer++)
-        status = spread_layer(&s, error);
-    clear_layer(s.here, s.here ? s.here_count : 0);
-    mpz_clears(s.times, s.one, NULL);
+    static const tn_walk_algebra values = {
+        .zero = zero_values, .clear = clear_values, .one = start_values, .add = add_values};
+    tn_spreading s = {.houses = h, .kind = kind};
+    mpz_init(s.times);
+    const tn_key_question spread = {&values, end_values, &s, sizeof(tn_value_counts)};
+    tn_status status = tn_houses_go_forward(h, kind, &spread, error);
+    mpz_clear(s.times);
     return status;
 }
 

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "runtime/base/length_style.h"
+#include "runtime/base/length.h"
 #include "runtime/base/utf8.h"
 
 #define PLAN_CUT_NM INT64_C(1219200000) /* 4' */

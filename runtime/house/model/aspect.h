@@ -6,7 +6,7 @@
 #ifndef TARTAN_HOUSE_ASPECT_H
 #define TARTAN_HOUSE_ASPECT_H
 
-#include "runtime/geometry/camera.h"
+#include "runtime/geometry/render.h"
 #include "runtime/house/model/marks.h"
 #include "runtime/house/model/model.h"
 

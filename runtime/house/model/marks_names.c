@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "runtime/base/length_style.h"
+#include "runtime/base/length.h"
 #include "runtime/base/utf8.h"
 #include "runtime/house/model/marks_parts.h"
 

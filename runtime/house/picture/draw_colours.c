@@ -8,7 +8,7 @@ static const double colours[TN_GROUP_COUNT][3] = {
     [TN_GROUP_ITEM] = {0.84, 0.74, 0.60}, [TN_GROUP_PANE] = {0.70, 0.84, 0.93},  [TN_GROUP_LEAF] = {0.74, 0.46, 0.34},
 };
 
-#define FACING 0.79 /* how light a surface is that looks at the eye (camera.c) */
+#define FACING 0.79 /* how light a surface is that looks at the eye (render.c) */
 
 static bool shows_materials(const tn_house_form *form, tn_aspect_kind kind)
 {

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "runtime/draw/paper.h"
+#include "runtime/draw/scales.h"
 #include "runtime/draw/type.h"
 #include "runtime/house/picture/draw_parts.h"
 

@@ -108,19 +108,27 @@ typedef struct tn_places {
     size_t room;
 } tn_places;
 
-typedef struct tn_facing {
+typedef struct tn_faces {
     tn_plan_path *path;
-    const tn_choosing *choosing;
+    tn_choosing *choosing;
     tn_house *house;
     const tn_path_slices *of_tray;
+    struct tn_facing *trays; /* [length] */
+    mpz_t one;
+} tn_faces;
+
+/* A tray, with the faces so far. What is found of its slices and interfaces is kept while the functions stay. */
+typedef struct tn_facing {
+    tn_faces *of;
     uint32_t tray;
-    tn_places before, after; /* the tray, with the faces so far */
+    const tn_places *before; /* the tray */
+    tn_places after;         /* it */
     tn_places behind;        /* it: how many houses go on from places there, with these choices at its right: */
     tn_choice_stretch behind_by;
     tn_left slices;
     tn_choice_stretch inner;
-    tn_interface_left left, right;
-    mpz_t one;
+    tn_interface_left *left; /* the right one of the tray before */
+    tn_interface_left right;
 } tn_facing;
 
 static void empty(tn_places *places)
@@ -178,20 +186,21 @@ static tn_status go_to(void *context, uint32_t state, uint64_t times, uint64_t f
 /* f->after := where the houses with the faces so far are after the tray. */
 static tn_status go_through(tn_facing *f, tn_error *error)
 {
-    tn_frontier *frontier = f->path->kind.frontier;
+    tn_plan_path *path = f->of->path;
+    tn_frontier *frontier = path->kind.frontier;
     tn_status status = gather(&f->slices, f->inner.first, f->inner.count, error);
     empty(&f->after);
-    for (uint32_t i = 0; status == TN_OK && i < f->before.keys.count; i++) {
-        uint32_t edge = tn_high(f->before.keys.keys[i]), state = tn_low(f->before.keys.keys[i]);
+    for (uint32_t i = 0; status == TN_OK && i < f->before->keys.count; i++) {
+        uint32_t edge = tn_high(f->before->keys.keys[i]), state = tn_low(f->before->keys.keys[i]);
         status = tn_watch_check(frontier->watch, error);
         for (size_t k = 0; status == TN_OK && k < f->slices.left.count; k++) {
             const tn_frontier_choice *slice = &f->slices.left.items[k];
             const tn_frontier_list *outcomes = NULL;
-            tn_going g = {&f->after, frontier->slices.items[slice->slice].exit, f->one};
-            status = outcomes_of(f->path, &f->left, edge, frontier->slices.items[slice->slice].entry, &outcomes, error);
-            mpz_mul_ui(f->one, f->before.choices[i], slice->times);
+            tn_going g = {&f->after, frontier->slices.items[slice->slice].exit, f->of->one};
+            status = outcomes_of(path, f->left, edge, frontier->slices.items[slice->slice].entry, &outcomes, error);
+            mpz_mul_ui(f->of->one, f->before->choices[i], slice->times);
             if (status == TN_OK)
-                status = tn_path_step(f->path, f->tray, state, slice->slice, outcomes, go_to, &g, error);
+                status = tn_path_step(path, f->tray, state, slice->slice, outcomes, go_to, &g, error);
         }
     }
     return status;
@@ -202,7 +211,7 @@ static tn_status go_through(tn_facing *f, tn_error *error)
 /* sum->houses := those that go on from a place after the tray. */
 static tn_status look_on(tn_facing *f, uint64_t place, tn_path_sum *sum, tn_error *error)
 {
-    tn_plan_path *a = f->path;
+    tn_plan_path *a = f->of->path;
     uint32_t edge = tn_high(place), state = tn_low(place), next = f->tray + 1;
     const tn_frontier_list *outcomes = NULL;
     tn_status status;
@@ -218,8 +227,8 @@ static tn_status look_on(tn_facing *f, uint64_t place, tn_path_sum *sum, tn_erro
     sum->trays = next + 1;
     sum->ahead = a->states[next + 1].like;
     status = TN_OK;
-    for (size_t k = 0; status == TN_OK && k < f->of_tray[next].count; k++) {
-        const tn_frontier_choice *slice = &f->of_tray[next].items[k];
+    for (size_t k = 0; status == TN_OK && k < f->of->of_tray[next].count; k++) {
+        const tn_frontier_choice *slice = &f->of->of_tray[next].items[k];
         mpz_set_ui(sum->houses, 0);
         status = outcomes_of(a, &f->right, edge, a->kind.frontier->slices.items[slice->slice].entry, &outcomes, error);
         if (status == TN_OK)
@@ -247,7 +256,7 @@ static tn_status find_behind(tn_facing *f, uint64_t place, tn_path_sum *sum, mpz
 /* houses := those that go on after the tray. */
 static tn_status count_on(tn_facing *f, mpz_t houses, tn_error *error)
 {
-    tn_path_sum sum = {.path = f->path};
+    tn_path_sum sum = {.path = f->of->path};
     tn_status status = TN_OK;
     mpz_init(sum.houses);
     mpz_set_ui(houses, 0);
@@ -276,32 +285,7 @@ static tn_choice_stretch *stretch_of(tn_facing *f, const tn_face *face)
 {
     if (tn_face_is_inner(face))
         return &f->inner;
-    return face->side == TN_HOUSE_LEFT ? &f->left.stretch : &f->right.stretch;
-}
-
-/* *found: does the house have one of the kinds? */
-static tn_status choose_kind(tn_facing *f, uint32_t at, bool *found, tn_error *error)
-{
-    uint32_t kinds[TN_FACE_KINDS_MAX];
-    tn_face *face = &f->house->faces[at];
-    size_t count = tn_face_options(f->house, face, kinds);
-    tn_choice_stretch *stretch = stretch_of(f, face);
-    const tn_house *wanted = f->choosing->wanted;
-    tn_status status = TN_OK;
-    mpz_t houses;
-    mpz_init(houses);
-    *found = false;
-    stretch->count /= count;
-    for (size_t i = 0; status == TN_OK && !*found && i < count; i++) {
-        bool is_it = wanted ? wanted->faces[at].kind == kinds[i] : i + 1 == count; /* none before it has the house */
-        face->kind = kinds[i];
-        if (!is_it)
-            status = count_houses(f, houses, error);
-        *found = status == TN_OK && (is_it || !tn_choosing_passes(f->choosing, houses, false));
-        stretch->first += *found ? 0 : stretch->count;
-    }
-    mpz_clear(houses);
-    return status;
+    return face->side == TN_HOUSE_LEFT ? &f->left->stretch : &f->right.stretch;
 }
 
 /* Ways to choose what is in the faces of an interface: those at this x that are not between storeys. */
@@ -315,68 +299,96 @@ static size_t choices_at(const tn_house *house, int64_t x)
     return ways;
 }
 
-static void begin_interface(const tn_facing *f, uint32_t place, tn_interface_left *interface)
+static void begin_interface(const tn_house *house, uint32_t place, tn_interface_left *interface)
 {
-    const tn_house *house = f->house;
     uint32_t tray = place > 0 ? place - 1 : 0;
     interface->cells = house->cells + house->tray_first[tray];
     interface->stretch = (tn_choice_stretch){0};
     interface->stretch.count = choices_at(house, tn_house_plane_x(house, place));
 }
 
-static void clear_tray(tn_facing *f)
-{
-    clear_left(&f->slices);
-    clear_interface(&f->left);
-    f->slices = (tn_left){0};
-    f->left = (tn_interface_left){0};
-}
+static tn_status choose_tray(tn_faces *faces, uint32_t tray, tn_error *error);
 
-/* The interface at the right of the last tray is that at the left of this one: part of it is chosen. */
-static tn_status begin_tray(tn_facing *f, uint32_t tray, tn_error *error)
+static tn_status show(tn_choosing *choosing, tn_house *house, tn_error *error)
 {
-    tn_house *house = f->house;
-    uint32_t first = house->tray_first[tray];
-    clear_tray(f);
-    empty(&f->behind);
-    f->tray = tray;
-    f->left = f->right;
-    f->right = (tn_interface_left){0};
-    if (tray == 0)
-        begin_interface(f, 0, &f->left);
-    begin_interface(f, tray + 1, &f->right);
-    tn_status status = tn_frontier_slices_ordered(f->path->kind.frontier, house->trays[tray], &house->cells[first],
-                                                  house->tray_first[tray + 1] - first, &f->slices.all, error);
-    f->inner = (tn_choice_stretch){0, f->slices.all.count};
+    tn_status status = choosing->faced(choosing->context, house, choosing->number, &choosing->stop, error);
+    choosing->shown = true;
+    if (!choosing->wanted)
+        mpz_set_ui(choosing->number, 0);
     return status;
 }
 
-static tn_status choose_faces(tn_facing *f, bool *found, tn_error *error)
-{
-    const tn_house *house = f->house;
-    tn_status status = TN_OK;
-    for (uint32_t i = 0; status == TN_OK && *found && i < house->face_count; i++)
-        if (house->cells[house->faces[i].first].tray == f->tray)
-            status = choose_kind(f, i, found, error);
-    return status == TN_OK && *found ? go_through(f, error) : status;
-}
-
-static void go_on(tn_facing *f)
-{
-    tn_places before = f->before;
-    f->before = f->after;
-    f->after = before;
-}
-
-/* The faces are all chosen: *found becomes false if clauses or tiles leave no house with them. */
-static tn_status check_left(tn_facing *f, bool *found, tn_error *error)
+/* The faces are all chosen. Clauses or tiles may leave no house with them. */
+static tn_status show_left(tn_facing *f, tn_error *error)
 {
     mpz_t houses;
     mpz_init(houses);
     tn_status status = count_on(f, houses, error);
-    *found = mpz_sgn(houses) > 0;
+    if (status == TN_OK && mpz_sgn(houses) > 0)
+        status = show(f->of->choosing, f->of->house, error);
     mpz_clear(houses);
     return status;
+}
+
+static tn_status end_tray(tn_facing *f, tn_error *error)
+{
+    tn_faces *faces = f->of;
+    tn_status status = go_through(f, error);
+    if (status != TN_OK)
+        return status;
+    return f->tray + 1 == faces->path->length ? show_left(f, error) : choose_tray(faces, f->tray + 1, error);
+}
+
+/* The kinds of the faces from this one on, of those of the tray. Up to the first house that is shown, the houses left
+ * are more than its number: if none before the last kind has it, the last has. */
+static tn_status choose_kinds(tn_facing *f, uint32_t at, tn_error *error)
+{
+    uint32_t kinds[TN_FACE_KINDS_MAX];
+    tn_house *house = f->of->house;
+    tn_choosing *choosing = f->of->choosing;
+    while (at < house->face_count && house->cells[house->faces[at].first].tray != f->tray)
+        at++;
+    if (at == house->face_count)
+        return end_tray(f, error);
+    tn_face *face = &house->faces[at];
+    size_t count = tn_face_options(house, face, kinds);
+    tn_choice_stretch *stretch = stretch_of(f, face), before = *stretch;
+    tn_status status = TN_OK;
+    mpz_t houses;
+    mpz_init(houses);
+    stretch->count /= count;
+    for (size_t i = 0; status == TN_OK && !choosing->stop && i < count; i++) {
+        const tn_house *wanted = choosing->wanted;
+        bool is_it = wanted ? wanted->faces[at].kind == kinds[i] : i + 1 == count && !choosing->shown;
+        face->kind = kinds[i];
+        if (!is_it)
+            status = count_houses(f, houses, error);
+        if (status == TN_OK && (is_it || !tn_choosing_passes(choosing, houses, false))) {
+            status = choose_kinds(f, at + 1, error);
+            choosing->stop = choosing->stop || wanted;
+        }
+        stretch->first += stretch->count;
+    }
+    *stretch = before;
+    mpz_clear(houses);
+    return status;
+}
+
+/* The interface at the right of the tray before is that at the left of this one: part of it is chosen. */
+static tn_status choose_tray(tn_faces *faces, uint32_t tray, tn_error *error)
+{
+    const tn_house *house = faces->house;
+    tn_facing *f = &faces->trays[tray];
+    uint32_t first = house->tray_first[tray];
+    tn_status status = TN_OK;
+    if (!f->of) {
+        *f = (tn_facing){.of = faces, .tray = tray, .before = &f[-1].after, .left = &f[-1].right};
+        status = tn_frontier_slices_ordered(faces->path->kind.frontier, house->trays[tray], &house->cells[first],
+                                            house->tray_first[tray + 1] - first, &f->slices.all, error);
+        begin_interface(house, tray + 1, &f->right);
+    }
+    f->inner = (tn_choice_stretch){0, f->slices.all.count};
+    return status == TN_OK ? choose_kinds(f, 0, error) : status;
 }
 
 /* ---- what is ahead, of houses with the functions */
@@ -402,29 +414,35 @@ static tn_status look_ahead(tn_plan_path *a, const tn_path_slices *of_tray, tn_e
     return status;
 }
 
-tn_status tn_path_faces(tn_plan_path *a, const tn_choosing *choosing, tn_house *house, const tn_path_slices *of_tray,
-                        bool *found, tn_error *error)
+static tn_status begin(tn_faces *faces, tn_error *error)
 {
-    tn_facing f = {.path = a, .choosing = choosing, .house = house, .of_tray = of_tray};
-    mpz_init_set_ui(f.one, 1);
-    *found = true;
+    tn_facing *outside = faces->trays;
+    begin_interface(faces->house, 0, &outside->right);
+    return add_place(&outside->after, TN_FRONTIER_NONE, TN_FRONTIER_NONE, faces->one, 1, error);
+}
+
+tn_status tn_path_faces(tn_plan_path *a, tn_choosing *choosing, tn_house *house, const tn_path_slices *of_tray,
+                        tn_error *error)
+{
+    tn_faces faces = {.path = a, .choosing = choosing, .house = house, .of_tray = of_tray};
+    tn_facing *all = faces.trays = calloc((size_t)a->length + 1, sizeof *faces.trays); /* the first is outside */
+    if (!all)
+        return tn_fail_memory(error);
+    mpz_init_set_ui(faces.one, 1);
     tn_frontier_orders_trim(a->kind.frontier);
     tn_status status = look_ahead(a, of_tray, error);
     if (status == TN_OK)
-        status = add_place(&f.before, TN_FRONTIER_NONE, TN_FRONTIER_NONE, f.one, 1, error);
-    for (uint32_t i = 0; status == TN_OK && *found && i < a->length; i++) {
-        status = begin_tray(&f, i, error);
-        if (status == TN_OK)
-            status = choose_faces(&f, found, error);
-        if (status == TN_OK && *found && i + 1 == a->length)
-            status = check_left(&f, found, error);
-        go_on(&f);
+        status = begin(&faces, error);
+    faces.trays++;
+    if (status == TN_OK)
+        status = a->length > 0 ? choose_tray(&faces, 0, error) : show(choosing, house, error);
+    for (uint32_t i = 0; i <= a->length; i++) {
+        clear_left(&all[i].slices);
+        clear_interface(&all[i].right);
+        clear_places(&all[i].after);
+        clear_places(&all[i].behind);
     }
-    clear_tray(&f);
-    clear_interface(&f.right);
-    clear_places(&f.before);
-    clear_places(&f.after);
-    clear_places(&f.behind);
-    mpz_clear(f.one);
+    free(all);
+    mpz_clear(faces.one);
     return status;
 }

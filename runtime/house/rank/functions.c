@@ -15,7 +15,7 @@ typedef struct tn_coming {
     uint32_t tray, layer, beginning; /* beginning: the functions so far, of those that are kept */
     mpz_t *here;                     /* [nodes] */
     uint32_t *order;                 /* [nodes]: by group, if they are slice states */
-    mpz_t one;
+    mpz_t one, unkept;
 } tn_coming;
 
 static const tn_numbering *nodes_of(const tn_coming *c)
@@ -102,7 +102,7 @@ static tn_status order_nodes(tn_coming *c, tn_error *error)
 static tn_status begin_tray(tn_coming *c, tn_plan_path *path, uint32_t tray, tn_error *error)
 {
     *c = (tn_coming){.path = path, .tray = tray, .layer = tray * path->stages};
-    mpz_init(c->one);
+    mpz_inits(c->one, c->unkept, NULL);
     uint32_t count = nodes_of(c)->count;
     c->here = tn_integers_new(count);
     if (!c->here)
@@ -119,7 +119,7 @@ static void end_tray(tn_coming *c)
 {
     tn_integers_free(c->here, nodes_of(c)->count);
     free(c->order);
-    mpz_clear(c->one);
+    mpz_clears(c->one, c->unkept, NULL);
 }
 
 /* ---- by a slice */
@@ -237,43 +237,29 @@ static tn_status count_houses(const tn_coming *c, const tn_frontier_furnished *s
     return status;
 }
 
+enum { NUMBERS_MOST = 1 << 16 }; /* of all beginnings together */
+
 /* The same, found once: they are the `at`th of what the tray can be with the functions so far. Good until the next. */
-static tn_status find_houses(const tn_coming *c, size_t at, const tn_frontier_furnished *slices, size_t count,
+static tn_status find_houses(tn_coming *c, size_t at, const tn_frontier_furnished *slices, size_t count,
                              mpz_ptr *houses, tn_error *error)
 {
-    tn_path_numbers *numbers = &c->path->by_functions[c->beginning];
-    if (at == numbers->count) {
-        if (!tn_array_reserve_from(&numbers->items, &numbers->room, 4, at, 1, sizeof *numbers->items))
-            return tn_fail_memory(error);
-        mpz_init(numbers->items[numbers->count++]);
-        c->path->number_count++;
-        tn_status status = count_houses(c, slices, count, numbers->items[at], error);
-        if (status != TN_OK) {
-            mpz_clear(numbers->items[--numbers->count]);
-            return status;
-        }
+    tn_plan_path *path = c->path;
+    tn_path_numbers *numbers = &path->by_functions[c->beginning];
+    if (at < numbers->count) {
+        *houses = numbers->items[at];
+        return TN_OK;
     }
-    *houses = numbers->items[at];
+    *houses = c->unkept;
+    tn_status status = count_houses(c, slices, count, c->unkept, error);
+    if (status != TN_OK || at > numbers->count || path->number_count > NUMBERS_MOST)
+        return status;
+    if (!tn_array_reserve_from(&numbers->items, &numbers->room, 4, at, 1, sizeof *numbers->items))
+        return tn_fail_memory(error);
+    mpz_init_set(numbers->items[numbers->count++], c->unkept);
+    path->number_count++;
     return TN_OK;
 }
 
-/* The slices [*first, *end) have the functions of the house. *found: does one? */
-static tn_status choose(tn_coming *c, const tn_choosing *choosing, const tn_frontier_furnished_list *slices,
-                        size_t *first, size_t *end, bool *found, tn_error *error)
-{
-    mpz_ptr houses = NULL;
-    tn_status status = TN_OK;
-    *found = false;
-    for (size_t i = 0, next = 0; status == TN_OK && !*found && next < slices->count; i++) {
-        *first = next;
-        *end = next = end_of(slices, *first);
-        status = find_houses(c, i, &slices->items[*first], *end - *first, &houses, error);
-        *found =
-            status == TN_OK &&
-            !tn_choosing_passes(choosing, houses, has_functions(c, slices->items[*first].functions, choosing->wanted));
-    }
-    return status;
-}
 /* The tray has the functions of these slices. */
 static tn_status take(tn_coming *c, const tn_frontier_furnished *slices, size_t count, tn_house *house,
                       tn_path_slices *taken, tn_error *error)
@@ -291,15 +277,6 @@ static tn_status take(tn_coming *c, const tn_frontier_furnished *slices, size_t 
         status = take_slice(c, &taken->items[i], error);
     }
     return status;
-}
-
-static tn_status choose_tray(tn_coming *c, const tn_choosing *choosing, tn_house *house, tn_path_slices *taken,
-                             bool *found, tn_error *error)
-{
-    const tn_frontier_furnished_list *slices = &c->path->kind.frontier->slices.furnished[house->trays[c->tray]];
-    size_t first = 0, end = 0;
-    tn_status status = choose(c, choosing, slices, &first, &end, found, error);
-    return status == TN_OK && *found ? take(c, slices->items + first, end - first, house, taken, error) : status;
 }
 
 /* ---- numbers that are kept */
@@ -331,7 +308,6 @@ static tn_status find_beginning(tn_plan_path *path, uint32_t *beginning, tn_erro
 
 static void begin(tn_plan_path *path)
 {
-    enum { NUMBERS_MOST = 1 << 16 };
     if (path->number_count > NUMBERS_MOST)
         tn_path_forget_numbers(path);
     path->beginning.size = 0;
@@ -341,20 +317,64 @@ static void begin(tn_plan_path *path)
     mpz_set_ui(path->states[0].here[0], 1);
 }
 
-tn_status tn_path_functions(tn_plan_path *path, const tn_choosing *choosing, tn_house *house, tn_path_slices *of_tray,
-                            bool *found, tn_error *error)
+/* ---- tray by tray */
+
+static void take_back(tn_plan_path *path, uint32_t tray, tn_path_slices *taken)
 {
+    for (uint32_t i = 0; i < tn_path_layer(path, tray + 1)->nodes.count; i++)
+        mpz_set_ui(path->states[tray + 1].here[i], 0);
+    free(taken->items);
+    *taken = (tn_path_slices){0};
+    path->beginning.size = tray;
+}
+
+static tn_status choose_tray(tn_plan_path *path, uint32_t tray, tn_choosing *choosing, tn_house *house,
+                             tn_path_slices *of_tray, tn_error *error);
+
+/* The functions of the tray, in order: each group of slices [first, end) has others. */
+static tn_status choose(tn_coming *c, tn_choosing *choosing, tn_house *house, tn_path_slices *of_tray, tn_error *error)
+{
+    const tn_frontier_furnished_list *slices = &c->path->kind.frontier->slices.furnished[house->trays[c->tray]];
+    const tn_house *wanted = choosing->wanted;
     tn_status status = TN_OK;
-    *found = true;
-    begin(path);
-    for (uint32_t i = 0; status == TN_OK && *found && i < path->length; i++) {
-        tn_coming c;
-        status = begin_tray(&c, path, i, error);
+    for (size_t i = 0, first = 0, end; status == TN_OK && !choosing->stop && first < slices->count; i++, first = end) {
+        const tn_frontier_furnished *group = &slices->items[first];
+        mpz_ptr houses = NULL;
+        end = end_of(slices, first);
+        status = find_houses(c, i, group, end - first, &houses, error);
+        if (status != TN_OK || tn_choosing_passes(choosing, houses, has_functions(c, group->functions, wanted)))
+            continue;
+        status = take(c, group, end - first, house, &of_tray[c->tray], error);
         if (status == TN_OK)
-            status = find_beginning(path, &c.beginning, error);
-        if (status == TN_OK)
-            status = choose_tray(&c, choosing, house, &of_tray[i], found, error);
-        end_tray(&c);
+            status = choose_tray(c->path, c->tray + 1, choosing, house, of_tray, error);
+        take_back(c->path, c->tray, &of_tray[c->tray]);
+        choosing->stop = choosing->stop || wanted;
     }
+    return status;
+}
+
+static tn_status choose_tray(tn_plan_path *path, uint32_t tray, tn_choosing *choosing, tn_house *house,
+                             tn_path_slices *of_tray, tn_error *error)
+{
+    tn_coming c;
+    if (tray == path->length)
+        return tn_path_faces(path, choosing, house, of_tray, error);
+    tn_status status = begin_tray(&c, path, tray, error);
+    if (status == TN_OK)
+        status = find_beginning(path, &c.beginning, error);
+    if (status == TN_OK)
+        status = choose(&c, choosing, house, of_tray, error);
+    end_tray(&c);
+    return status;
+}
+
+tn_status tn_path_choose(tn_plan_path *path, tn_choosing *choosing, tn_house *house, tn_error *error)
+{
+    tn_path_slices *of_tray = calloc((size_t)path->length + 1, sizeof *of_tray);
+    if (!of_tray)
+        return tn_fail_memory(error);
+    begin(path);
+    tn_status status = choose_tray(path, 0, choosing, house, of_tray, error);
+    free(of_tray);
     return status;
 }

@@ -1,34 +1,35 @@
-/* The house of a number among those on one plan, and the number of a house: section by section, then the functions of
+/* The houses on one plan from a number on, and the number of a house: section by section, then the functions of
  * one tray after another, then its faces, counted as a whole library is; last its tiles, which are multiplied. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/house/rank/path.h"
+#include "runtime/house/rule/furnish.h"
 
 /* kinds: the states of each kind of section, found when one is first met. */
 struct tn_plan_houses {
     tn_houses *houses;
-    tn_house_variants *variants;
-    tn_plan_path *kinds; /* [kinds] */
+    tn_furnisher *furnisher; /* borrowed of the houses */
+    tn_plan_path *kinds;     /* [kinds] */
     tn_tray *trays;
     uint32_t length;
     tn_house_known known; /* of the cells of the house that is looked for */
 };
 
-tn_status tn_plan_houses_new(tn_houses *h, tn_house_variants *variants, const tn_tray *trays, uint32_t length,
-                             tn_plan_houses **out, tn_error *error)
+tn_status tn_plan_houses_new(tn_houses *h, const tn_tray *trays, uint32_t length, tn_plan_houses **out, tn_error *error)
 {
     tn_plan_houses *p = *out = calloc(1, sizeof *p);
     if (!p)
         return tn_fail_memory(error);
-    *p = (tn_plan_houses){.houses = h, .variants = variants, .length = length};
+    *p = (tn_plan_houses){.houses = h, .length = length};
     p->kinds = calloc(h->kind_count + 1, sizeof *p->kinds);
     p->trays = malloc(((size_t)length + 1) * sizeof *p->trays);
     if (!p->kinds || !p->trays)
         return tn_fail_memory(error);
     if (length > 0)
         memcpy(p->trays, trays, length * sizeof *trays);
-    return tn_house_known_begin(h->form, &p->known, error);
+    tn_status status = tn_houses_furnisher(h, &p->furnisher, error);
+    return status == TN_OK ? tn_house_known_begin(h->form, &p->known, error) : status;
 }
 
 void tn_plan_houses_free(tn_plan_houses *p)
@@ -59,6 +60,22 @@ static tn_status path_of(tn_plan_houses *p, const tn_house *section, tn_plan_pat
     return (*path)->states ? TN_OK : tn_path_find(*path, p->houses, kind, p->trays, p->length, error);
 }
 
+tn_status tn_plan_houses_count(tn_plan_houses *p, mpz_t houses, tn_error *error)
+{
+    tn_house section = {.form = p->houses->form};
+    tn_status status = TN_OK;
+    mpz_set_ui(houses, 0);
+    for (bool more = true; status == TN_OK && more; more = tn_form_next_section(section.form, section.shapes)) {
+        tn_plan_path *path;
+        if (!tn_house_section_stands(&section))
+            continue;
+        status = path_of(p, &section, &path, error);
+        if (status == TN_OK)
+            mpz_add(houses, houses, tn_path_layer(path, 0)->ahead[0]);
+    }
+    return status;
+}
+
 /* ---- a section */
 
 static bool has_section(const tn_house *house, const tn_house *section)
@@ -66,79 +83,184 @@ static bool has_section(const tn_house *house, const tn_house *section)
     return house && memcmp(house->shapes, section->shapes, sizeof house->shapes) == 0;
 }
 
-/* Passes over the section, or fills in its house. *ended: the house is of this section; *found: is there one? */
-static tn_status try_section(tn_plan_houses *p, const tn_choosing *choosing, const tn_house *section, tn_house *house,
-                             bool *ended, bool *found, tn_error *error)
+/* Passes over the section, or chooses among its houses, which `house` becomes. */
+static tn_status try_section(tn_plan_houses *p, tn_choosing *choosing, const tn_house *section, tn_house *house,
+                             tn_error *error)
 {
     tn_plan_path *path;
     tn_status status = path_of(p, section, &path, error);
-    *ended = status == TN_OK &&
-             !tn_choosing_passes(choosing, tn_path_layer(path, 0)->ahead[0], has_section(choosing->wanted, section));
-    if (!*ended)
+    if (status != TN_OK ||
+        tn_choosing_passes(choosing, tn_path_layer(path, 0)->ahead[0], has_section(choosing->wanted, section)))
         return status;
-    status = tn_house_stand(p->houses->form, p->trays, p->length, section->shapes, house, error);
+    status = tn_house_stand_again(p->houses->form, p->trays, p->length, section->shapes, house, error);
     if (status == TN_OK)
         status = tn_house_known_use(&p->known, house, error);
     if (status == TN_OK)
-        status = tn_path_choose(path, choosing, house, found, error);
+        status = tn_path_choose(path, choosing, house, error);
     house->known = NULL;
+    choosing->stop = choosing->stop || choosing->wanted;
     return status;
 }
 
 /* Of all sections in their order. */
-static tn_status choose_section(tn_plan_houses *p, const tn_choosing *choosing, tn_house *house, bool *found,
-                                tn_error *error)
+static tn_status choose_section(tn_plan_houses *p, tn_choosing *choosing, tn_house *house, tn_error *error)
 {
     tn_house section = {.form = p->houses->form};
     tn_status status = TN_OK;
-    bool ended = false;
-    *found = false;
-    for (bool more = true; status == TN_OK && !ended && more; more = tn_form_next_section(section.form, section.shapes))
+    *house = (tn_house){0};
+    for (bool more = true; status == TN_OK && !choosing->stop && more;
+         more = tn_form_next_section(section.form, section.shapes))
         if (tn_house_section_stands(&section))
-            status = try_section(p, choosing, &section, house, &ended, found, error);
+            status = try_section(p, choosing, &section, house, error);
     return status;
 }
 
 /* ---- houses */
 
+typedef struct tn_furnishing {
+    tn_furnisher *furnisher;
+    const tn_house *wanted;
+    mpz_t count, before; /* of combinations of tiles */
+    bool found;
+    tn_house_each *each;
+    void *context;
+} tn_furnishing;
+
+static tn_status furnish(tn_furnishing *f, tn_house *house, const mpz_t before, tn_error *error)
+{
+    tn_status status = tn_furnish(f->furnisher, house, NULL, f->count, error);
+    if (status == TN_OK && mpz_cmp(before, f->count) >= 0)
+        status = tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "the houses with the same faces were counted wrong");
+    if (status == TN_OK)
+        tn_furnish_at(f->furnisher, before);
+    return status;
+}
+
+static tn_status take_first(void *context, tn_house *house, const mpz_t before, bool *stop, tn_error *error)
+{
+    tn_furnishing *f = context;
+    *stop = f->found = true;
+    return furnish(f, house, before, error);
+}
+
+static tn_status give_all(void *context, tn_house *house, const mpz_t before, bool *stop, tn_error *error)
+{
+    tn_furnishing *f = context;
+    tn_status status = furnish(f, house, before, error);
+    bool more = status == TN_OK;
+    while (more && !*stop) {
+        status = f->each(f->context, house, stop, error);
+        more = status == TN_OK && tn_furnish_next(f->furnisher);
+    }
+    return status;
+}
+
+static tn_status find_wanted(void *context, tn_house *house, const mpz_t before, bool *stop, tn_error *error)
+{
+    tn_furnishing *f = context;
+    (void)before;
+    tn_status status = tn_furnish(f->furnisher, house, NULL, f->count, error);
+    *stop = true;
+    f->found = status == TN_OK && tn_furnish_has(f->furnisher, f->wanted);
+    if (f->found)
+        tn_furnish_before(f->furnisher, f->wanted, f->before);
+    return status;
+}
+
+static void furnishing_begin(const tn_plan_houses *p, tn_furnishing *f)
+{
+    *f = (tn_furnishing){.furnisher = p->furnisher};
+    mpz_inits(f->count, f->before, NULL);
+}
+
+static void furnishing_end(tn_furnishing *f)
+{
+    mpz_clears(f->count, f->before, NULL);
+}
+
 /* left: of the number, when all houses on the plan have been passed over. */
 static tn_status too_few(const mpz_t variant, mpz_t left, tn_error *error)
 {
     mpz_sub(left, variant, left);
-    return tn_house_variants_too_few(left, error);
+    return tn_house_too_few(left, error);
 }
 
 tn_status tn_plan_houses_at(tn_plan_houses *p, const mpz_t variant, tn_house *house, tn_error *error)
 {
+    tn_furnishing f;
     mpz_t left;
     mpz_init_set(left, variant);
-    const tn_choosing choosing = {.number = left};
-    tn_house faced = {0};
-    bool found = false;
-    *house = (tn_house){0};
-    tn_status status = choose_section(p, &choosing, &faced, &found, error);
-    if (status == TN_OK)
-        status =
-            found ? tn_house_variants_furnish(p->variants, &faced, left, house, error) : too_few(variant, left, error);
-    tn_house_clear(&faced);
+    furnishing_begin(p, &f);
+    tn_choosing choosing = {.number = left, .faced = take_first, .context = &f};
+    tn_status status = choose_section(p, &choosing, house, error);
+    if (status == TN_OK && !f.found)
+        status = too_few(variant, left, error);
+    furnishing_end(&f);
+    mpz_clear(left);
+    return status;
+}
+
+tn_status tn_plan_houses_each(tn_plan_houses *p, const mpz_t from, tn_house_each *each, void *context, tn_error *error)
+{
+    tn_furnishing f;
+    tn_house house;
+    mpz_t left;
+    mpz_init_set(left, from);
+    furnishing_begin(p, &f);
+    f.each = each;
+    f.context = context;
+    tn_choosing choosing = {.number = left, .faced = give_all, .context = &f};
+    tn_status status = choose_section(p, &choosing, &house, error);
+    tn_house_clear(&house);
+    furnishing_end(&f);
     mpz_clear(left);
     return status;
 }
 
 tn_status tn_plan_houses_number(tn_plan_houses *p, const tn_house *house, mpz_t variant, tn_error *error)
 {
-    const tn_choosing choosing = {.number = variant, .wanted = house};
-    tn_house faced = {0};
-    bool found = false;
-    mpz_t tiles;
-    mpz_init(tiles);
+    tn_furnishing f;
+    tn_house faced;
+    furnishing_begin(p, &f);
+    f.wanted = house;
     mpz_set_ui(variant, 0);
-    tn_status status = choose_section(p, &choosing, &faced, &found, error);
-    if (status == TN_OK)
-        status =
-            found ? tn_house_variants_furnished(p->variants, house, tiles, error) : tn_house_variants_no_house(error);
-    mpz_add(variant, variant, tiles);
+    tn_choosing choosing = {.number = variant, .wanted = house, .faced = find_wanted, .context = &f};
+    tn_status status = choose_section(p, &choosing, &faced, error);
+    if (status == TN_OK && !f.found)
+        status = tn_house_not_kept(error);
+    mpz_add(variant, variant, f.before);
     tn_house_clear(&faced);
-    mpz_clear(tiles);
+    furnishing_end(&f);
+    return status;
+}
+
+/* ---- without tiles */
+
+typedef struct tn_counting_faced {
+    uint64_t most, count;
+} tn_counting_faced;
+
+static tn_status count_faced(void *context, tn_house *house, const mpz_t before, bool *stop, tn_error *error)
+{
+    tn_counting_faced *c = context;
+    (void)house;
+    (void)before;
+    (void)error;
+    *stop = c->count++ == c->most;
+    return TN_OK;
+}
+
+tn_status tn_plan_houses_faced(tn_plan_houses *p, uint64_t most, uint64_t *faced, bool *known, tn_error *error)
+{
+    tn_counting_faced c = {.most = most};
+    tn_house house;
+    mpz_t left;
+    mpz_init(left);
+    tn_choosing choosing = {.number = left, .faced = count_faced, .context = &c};
+    tn_status status = choose_section(p, &choosing, &house, error);
+    tn_house_clear(&house);
+    mpz_clear(left);
+    *faced = c.count;
+    *known = c.count <= most;
     return status;
 }

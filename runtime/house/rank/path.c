@@ -34,32 +34,25 @@ void tn_path_clear(tn_plan_path *p)
 
 /* ---- states */
 
-typedef struct tn_path_reaching {
-    tn_plan_path *path;
-    uint32_t layer;
-} tn_path_reaching;
-
-static tn_status reach(void *context, const tn_houses_edge *edge, tn_error *error)
+static tn_status keep_step(void *context, void *sum, const void *element, const tn_walk_edge *at, tn_error *error)
 {
-    tn_path_reaching *r = context;
-    uint64_t node = (uint64_t)edge->plan << 32 | edge->state;
-    uint32_t to = tn_number(&r->path->kind.layers[r->layer + 1].nodes, node);
-    if (to == UINT32_MAX)
-        return tn_fail_memory(error);
-    return tn_houses_keep_step(&r->path->view, &r->path->kind, r->layer, to, edge, error);
+    tn_plan_path *p = context;
+    (void)sum;
+    (void)element;
+    return tn_houses_keep_step(&p->view, &p->kind, at->layer, at->to, at->label, error);
 }
 
 static tn_status find_nodes(tn_plan_path *p, tn_error *error)
 {
-    tn_path_reaching r = {.path = p};
-    p->kind.layers = calloc(tn_size_of(p->length, p->stages) + 1, sizeof *p->kind.layers);
-    if (!p->kind.layers || tn_number(&p->kind.layers[0].nodes, TN_FRONTIER_NONE) == UINT32_MAX)
-        return tn_fail_memory(error);
-    tn_status status = TN_OK;
-    for (; status == TN_OK && r.layer < p->length * p->stages; r.layer++) {
-        p->kind.layers[r.layer].kept.all = true;
-        status = tn_houses_expand(&p->view, &p->kind, r.layer, false, reach, &r, error);
-    }
+    static const tn_walk_algebra keeping = {.add = keep_step};
+    const tn_key_question steps = {&keeping, NULL, p, 0};
+    tn_houses_layers l;
+    tn_status status = tn_houses_layers_begin(&l, &p->view, &p->kind, error);
+    for (uint32_t k = 0; status == TN_OK && k < l.walk.last; k++)
+        p->kind.layers[k].kept.all = true;
+    if (status == TN_OK)
+        status = tn_key_walk_forward(&l.walk, &steps, error);
+    tn_key_walk_clear(&l.walk, NULL, NULL);
     return status;
 }
 
@@ -123,18 +116,5 @@ tn_status tn_path_count_on(tn_plan_path *path, uint32_t trays, uint32_t state, c
         status = tn_path_step(path, trays, state, slices[k].slice, NULL, tn_path_add, sum, error);
         mpz_addmul_ui(houses, sum->houses, slices[k].times);
     }
-    return status;
-}
-
-tn_status tn_path_choose(tn_plan_path *path, const tn_choosing *choosing, tn_house *house, bool *found, tn_error *error)
-{
-    tn_path_slices *of_tray = calloc((size_t)path->length + 1, sizeof *of_tray);
-    tn_status status =
-        of_tray ? tn_path_functions(path, choosing, house, of_tray, found, error) : tn_fail_memory(error);
-    if (status == TN_OK && *found)
-        status = tn_path_faces(path, choosing, house, of_tray, found, error);
-    for (uint32_t i = 0; of_tray && i < path->length; i++)
-        free(of_tray[i].items);
-    free(of_tray);
     return status;
 }

@@ -5,11 +5,18 @@
 #include "runtime/house/count/data.h"
 #include "runtime/house/rank/rank.h"
 
-/* A house by its number among those on the plan, or the number by the house. Choices are gone through in their order:
- * those before the house's are passed over. */
+/* Shown a house without its tiles. It stays the shower's, and the callee may set its tiles. before: how many houses
+ * with its functions and faces are passed over (those of choosing->number; with `wanted`, before the first of them). */
+typedef tn_status tn_path_faced(void *context, tn_house *house, const mpz_t before, bool *stop, tn_error *error);
+
+/* Houses from a number on among those on the plan, or one house and its number. Choices are gone through in their
+ * order: those before the house's are passed over, each as a whole. */
 typedef struct tn_choosing {
-    mpz_ptr number;         /* of the house among those that are left; with `wanted`: houses that are passed over */
+    mpz_ptr number;         /* of the first house among those that are left; with `wanted`: houses passed over */
     const tn_house *wanted; /* or NULL */
+    tn_path_faced *faced;
+    void *context;
+    bool shown, stop; /* a house was shown: there is nothing more to pass over; all ends */
 } tn_choosing;
 
 /* Passes over so many houses, unless the house is among them; is_wanted: the wanted house is, if there is one. */
@@ -17,6 +24,9 @@ bool tn_choosing_passes(const tn_choosing *choosing, const mpz_t houses, bool is
 
 /* How many houses go on from each node of the layers, for each length; the nodes are found. */
 tn_status tn_houses_look_ahead(const tn_houses *houses, tn_houses_kind *kind, tn_error *error);
+
+/* The same by a walk over the nodes (labels: tn_houses_edge). */
+tn_status tn_houses_look_back(const tn_houses *houses, tn_houses_kind *kind, tn_key_walk *walk, tn_error *error);
 
 /* Of each state after so many trays: choices of the functions so far, and of all else, that lead there; houses that go
  * on from there with the functions, once they are chosen. */
@@ -112,24 +122,22 @@ tn_status tn_path_add(void *sum, uint32_t state, uint64_t times, uint64_t faced,
 tn_status tn_path_count_on(tn_plan_path *path, uint32_t trays, uint32_t state, const tn_frontier_choice *slices,
                            size_t count, tn_path_sum *sum, mpz_t houses, tn_error *error);
 
-/* Chooses the functions of the house, tray by tray. Then `here` is of houses with these; `of_tray` [length] the slices
- * of each tray that have them, which the caller frees. house: on the plan in the section. *found: is there one? */
+/* Nodes that have been found for the plan. */
+size_t tn_plan_houses_nodes(const tn_plan_houses *plan);
+
+/* Chooses functions tray by tray, and then what is in the faces, for all houses from the first on, until one is the
+ * last that is asked for. house: stands on the plan in the section. */
+tn_status tn_path_choose(tn_plan_path *path, tn_choosing *choosing, tn_house *house, tn_error *error);
+
+/* The slices of a tray that have the functions of the house. */
 typedef struct tn_path_slices {
     tn_frontier_choice *items;
     size_t count;
 } tn_path_slices;
-tn_status tn_path_functions(tn_plan_path *path, const tn_choosing *choosing, tn_house *house, tn_path_slices *of_tray,
-                            bool *found, tn_error *error);
 
-/* Nodes that have been found for the plan. */
-size_t tn_plan_houses_nodes(const tn_plan_houses *plan);
-
-/* Both, one after the other: *house is stood up in the section. */
-tn_status tn_path_choose(tn_plan_path *path, const tn_choosing *choosing, tn_house *house, bool *found,
-                         tn_error *error);
-
-/* Chooses what is in the faces of the house, whose functions are those. *found: is there one? */
-tn_status tn_path_faces(tn_plan_path *path, const tn_choosing *choosing, tn_house *house, const tn_path_slices *of_tray,
-                        bool *found, tn_error *error);
+/* Chooses what is in the faces of the house, whose functions are those of these slices [length]; `here` of the states
+ * is of houses with these. */
+tn_status tn_path_faces(tn_plan_path *path, tn_choosing *choosing, tn_house *house, const tn_path_slices *of_tray,
+                        tn_error *error);
 
 #endif

@@ -191,76 +191,67 @@ static tn_status along_houses(tn_plan_along *a, uint32_t length, tn_tray tray, m
 
 /* ---- what is ahead */
 
-typedef struct tn_backward {
+/* The element of a node is a number for each length. */
+typedef struct tn_looking_ahead {
     const tn_houses *houses;
-    tn_houses_kind *kind;
-    uint32_t layer, stages;
+    uint32_t stages;
     mpz_t one;
-} tn_backward;
+} tn_looking_ahead;
 
-static tn_status add_end(void *context, const tn_houses_edge *edge, tn_error *error)
+static void zero_ahead(const void *context, void *element)
 {
-    tn_backward *b = context;
-    mpz_t *ahead = &b->kind->layers[b->layer].ahead[(size_t)edge->from * tn_houses_lengths(b->houses)];
+    const tn_looking_ahead *b = context;
+    for (uint32_t i = 0; i < tn_houses_lengths(b->houses); i++)
+        mpz_init(((mpz_t *)element)[i]);
+}
+
+static tn_status end_ahead(void *context, void *element, const tn_walk_edge *at, tn_error *error)
+{
+    const tn_looking_ahead *b = context;
+    mpz_ptr ahead = ((mpz_t *)element)[at->layer / b->stages - b->houses->low];
     (void)error;
-    uint32_t length = b->layer / b->stages - b->houses->low;
-    mpz_add_ui(ahead[length], ahead[length], edge->times);
+    mpz_add_ui(ahead, ahead, ((const tn_houses_edge *)at->label)->times);
     return TN_OK;
 }
 
-static void add_step(tn_backward *b, uint32_t from, uint32_t to, uint64_t ways, uint64_t times)
+static tn_status add_ahead(void *context, void *sum, const void *element, const tn_walk_edge *at, tn_error *error)
 {
-    const tn_houses_layer *layer = &b->kind->layers[b->layer];
-    uint32_t lengths = tn_houses_lengths(b->houses);
-    mpz_t *ahead = &layer->ahead[(size_t)from * lengths], *next = &layer[1].ahead[(size_t)to * lengths];
-    for (uint32_t i = 0; i < lengths; i++) {
-        if (mpz_sgn(next[i]) == 0)
+    tn_looking_ahead *b = context;
+    mpz_t *ahead = sum;
+    mpz_srcptr next = element;
+    const tn_houses_edge *edge = at->label;
+    (void)error;
+    for (uint32_t i = 0; i < tn_houses_lengths(b->houses); i++) {
+        if (mpz_sgn(&next[i]) == 0)
             continue;
-        mpz_mul_ui(b->one, next[i], ways);
-        mpz_addmul_ui(ahead[i], b->one, times);
+        mpz_mul_ui(b->one, &next[i], edge->ways);
+        mpz_addmul_ui(ahead[i], b->one, edge->times);
     }
-}
-
-static tn_status add_ahead(void *context, const tn_houses_edge *edge, tn_error *error)
-{
-    tn_backward *b = context;
-    const tn_numbering *nodes = &b->kind->layers[b->layer + 1].nodes;
-    (void)error;
-    add_step(b, edge->from, tn_number_find(nodes, (uint64_t)edge->plan << 32 | edge->state), edge->ways, edge->times);
     return TN_OK;
 }
 
-/* The steps to the next layer: those that counting kept, or once more. */
-static tn_status add_steps(tn_backward *b, tn_error *error)
+tn_status tn_houses_look_back(const tn_houses *h, tn_houses_kind *kind, tn_key_walk *walk, tn_error *error)
 {
-    const tn_kept_steps *kept = &b->kind->layers[b->layer].kept;
-    if (!kept->all)
-        return tn_houses_expand(b->houses, b->kind, b->layer, false, add_ahead, b, error);
-    for (size_t i = 0; i < kept->count; i++)
-        add_step(b, kept->items[i].from, kept->items[i].to, 1, kept->items[i].times);
-    tn_houses_forget_steps(b->kind, b->layer);
-    return TN_OK;
-}
-
-static tn_status look_back(tn_backward *b, tn_error *error)
-{
-    const tn_houses *h = b->houses;
-    tn_houses_layer *layer = &b->kind->layers[b->layer];
-    layer->ahead = tn_integers_new(tn_size_of(layer->nodes.count, tn_houses_lengths(h)));
-    tn_status status = layer->ahead ? TN_OK : tn_fail_memory(error);
-    if (status == TN_OK && b->layer % b->stages == 0 && b->layer >= h->low * b->stages)
-        status = tn_houses_expand(h, b->kind, b->layer, true, add_end, b, error);
-    return status == TN_OK && b->layer < h->high * b->stages ? add_steps(b, error) : status;
+    static const tn_walk_algebra numbers = {.zero = zero_ahead, .add = add_ahead};
+    tn_looking_ahead b = {.houses = h, .stages = h->high > 0 ? walk->last / h->high : 1};
+    mpz_init(b.one);
+    const tn_key_question ahead = {&numbers, end_ahead, &b, tn_houses_lengths(h) * sizeof(mpz_t)};
+    tn_status status = tn_key_walk_backward(walk, &ahead, error);
+    for (uint32_t k = 0; k <= walk->last; k++) {
+        kind->layers[k].ahead = (mpz_t *)(void *)walk->backward[k];
+        walk->backward[k] = NULL;
+    }
+    mpz_clear(b.one);
+    return status;
 }
 
 tn_status tn_houses_look_ahead(const tn_houses *h, tn_houses_kind *kind, tn_error *error)
 {
-    tn_backward b = {.houses = h, .kind = kind, .stages = tn_houses_stages(h, kind)};
-    tn_status status = TN_OK;
-    mpz_init(b.one);
-    for (b.layer = h->high * b.stages + 1; status == TN_OK && b.layer-- > 0;)
-        status = look_back(&b, error);
-    mpz_clear(b.one);
+    tn_houses_layers l;
+    tn_status status = tn_houses_layers_begin(&l, h, kind, error);
+    if (status == TN_OK)
+        status = tn_houses_look_back(h, kind, &l.walk, error);
+    tn_key_walk_clear(&l.walk, NULL, NULL);
     return status;
 }
 

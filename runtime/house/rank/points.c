@@ -5,6 +5,8 @@
 
 #include "runtime/base/array.h"
 #include "runtime/house/rank/path.h"
+#include "runtime/house/rule/furnish.h"
+#include "runtime/house/schedule/cost.h"
 
 /* States that the row so far leads to, each with a value, from which the wanted value is reached. */
 typedef struct tn_lead {
@@ -19,13 +21,13 @@ typedef struct tn_leads {
 
 typedef struct tn_seeking {
     tn_houses *houses;
-    tn_house_variants *variants;
+    tn_furnisher *furnisher; /* borrowed of the houses */
     tn_house_gain wanted;
     uint32_t length;
     tn_tray *trays;        /* [high] of the plan so far */
     uint32_t *plans;       /* [high + 1] its states */
     tn_house_gain *gains;  /* [high] what each tray adds to the plan's part */
-    mpz_t given;           /* houses, of those that are counted */
+    mpz_t tiles;           /* combinations of a house's tiles */
     tn_house section;      /* its shapes only */
     tn_house_rules *rules; /* NULL: the functions say what the value is */
     bool stop;
@@ -92,56 +94,97 @@ static bool mark_start(const tn_seeking *s, tn_leads *marks)
 
 /* ---- houses */
 
-static tn_status give(void *context, const tn_house *house, bool *stop, tn_error *error)
+/* Does a measure add up costs? */
+static bool adds_costs(const tn_houses *h)
+{
+    bool asks = false;
+    for (uint32_t k = 0; h->measures && k < h->measures->count; k++)
+        asks = asks || h->units.costs[k] != 0;
+    return asks;
+}
+
+/* A measure's value of the house without its tiles, in steps. */
+static tn_status value_of(const tn_seeking *s, uint32_t k, const mpq_t shell, tn_int128 *steps, tn_error *error)
+{
+    const tn_houses *h = s->houses;
+    mpq_t value, cost;
+    mpq_inits(value, cost, NULL);
+    tn_status status = tn_house_rules_measure(s->rules, h->measures->of[k]->of, value, cost, error);
+    mpq_mul(cost, cost, shell);
+    mpq_add(value, value, cost);
+    if (status == TN_OK && !tn_steps_of(value, h->units.measures[k], steps))
+        status = tn_too_fine(error);
+    mpq_clears(value, cost, NULL);
+    return status;
+}
+
+/* *fits: can the house have the values? *left: what its tiles cost then, in steps. */
+static tn_status find_left(const tn_seeking *s, const tn_house *house, bool *fits, tn_int128 *left, tn_error *error)
+{
+    const tn_houses *h = s->houses;
+    bool known = false;
+    mpq_t shell;
+    *fits = true;
+    *left = 0;
+    if (!s->rules)
+        return TN_OK;
+    mpq_init(shell);
+    tn_status status = tn_house_rules_start(s->rules, house, error);
+    if (status == TN_OK && adds_costs(h))
+        status = tn_house_exact_cost(house, tn_house_shell, shell, error);
+    for (uint32_t k = 0; status == TN_OK && *fits && k < h->measures->count; k++) {
+        tn_int128 value = 0, all = s->wanted.by[k] * (h->measures->most[k] ? -1 : 1);
+        status = value_of(s, k, shell, &value, error);
+        tn_int128 each = h->units.costs[k], rest = all - value;
+        tn_int128 tiles = each ? rest / each : 0;
+        *fits = tiles * each == rest && (!known || each == 0 || tiles == *left);
+        *left = each ? tiles : *left;
+        known = known || each;
+    }
+    mpq_clear(shell);
+    return status;
+}
+
+/* The house without tiles has the functions and faces of the wanted ones; those of its tiles with which it has the
+ * value are the same number of combinations as were counted. */
+static tn_status give_faced(void *context, tn_house *house, const mpz_t before, bool *stop, tn_error *error)
 {
     tn_seeking *s = context;
-    if (!tn_house_variants_keep_tiles(s->variants, house))
-        return TN_OK;
-    mpz_add_ui(s->given, s->given, 1);
-    tn_status status = s->each(s->context, house, &s->stop, error);
+    tn_int128 left = 0;
+    bool fits = false;
+    mpq_t cost;
+    (void)before;
+    mpq_init(cost);
+    tn_status status = find_left(s, house, &fits, &left, error);
+    tn_steps_number(left, s->houses->units.cost, cost);
+    mpz_set_ui(s->tiles, 0);
+    if (status == TN_OK && fits)
+        status = tn_furnish(s->furnisher, house, adds_costs(s->houses) ? cost : NULL, s->tiles, error);
+    mpq_clear(cost);
+    if (status == TN_OK && mpz_sgn(s->tiles) == 0)
+        return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a house that was counted is not found");
+    mpz_set_ui(s->tiles, 0);
+    if (status == TN_OK)
+        tn_furnish_at(s->furnisher, s->tiles);
+    for (bool more = status == TN_OK; more && !s->stop;) {
+        status = s->each(s->context, house, &s->stop, error);
+        more = status == TN_OK && tn_furnish_next(s->furnisher);
+    }
     *stop = s->stop;
     return status;
 }
 
-static tn_status give_tiles(void *context, tn_house *house, const size_t *tiles, tn_error *error)
-{
-    tn_seeking *s = context;
-    const tn_houses_wanted wanted = {s->houses, s->rules, &s->wanted};
-    bool stop = false;
-    return tn_houses_furnish(&wanted, house, tiles, give, s, &stop, error);
-}
-
-/* The houses that have the functions and faces of the one of this number, which is of the first of them. */
-static tn_status give_faced(tn_seeking *s, tn_plan_path *path, const mpz_t number, tn_error *error)
-{
-    tn_house house;
-    bool found = false;
-    mpz_t left;
-    mpz_init_set(left, number);
-    const tn_choosing choosing = {.number = left};
-    tn_status status = tn_house_stand(s->houses->form, s->trays, s->length, s->section.shapes, &house, error);
-    if (status == TN_OK)
-        status = tn_path_choose(path, &choosing, &house, &found, error);
-    if (status == TN_OK && found)
-        status = tn_house_variants_faced(s->variants, &house, give_tiles, s, error);
-    tn_house_clear(&house);
-    mpz_clear(left);
-    return status;
-}
-
-/* A number of which no house is found would be gone to for ever. */
+/* All houses of the section that have the value. */
 static tn_status give_section(tn_seeking *s, tn_plan_path *path, tn_error *error)
 {
-    tn_status status = TN_OK;
+    tn_house house;
     mpz_t number;
     mpz_init(number);
-    while (status == TN_OK && !s->stop && mpz_cmp(number, tn_path_layer(path, 0)->ahead[0]) < 0) {
-        mpz_set_ui(s->given, 0);
-        status = give_faced(s, path, number, error);
-        mpz_add(number, number, s->given);
-        if (status == TN_OK && mpz_sgn(s->given) == 0)
-            status = tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a house that was counted is not found");
-    }
+    tn_choosing choosing = {.number = number, .faced = give_faced, .context = s};
+    tn_status status = tn_house_stand(s->houses->form, s->trays, s->length, s->section.shapes, &house, error);
+    if (status == TN_OK && mpz_sgn(tn_path_layer(path, 0)->ahead[0]) > 0)
+        status = tn_path_choose(path, &choosing, &house, error);
+    tn_house_clear(&house);
     mpz_clear(number);
     return status;
 }
@@ -241,16 +284,16 @@ static tn_status seek_length(tn_seeking *s, tn_error *error)
     return status;
 }
 
-tn_status tn_houses_point_each(tn_houses *h, size_t point, tn_house_variants *variants, tn_house_each *each,
-                               void *context, tn_error *error)
+tn_status tn_houses_point_each(tn_houses *h, size_t point, tn_house_each *each, void *context, tn_error *error)
 {
-    tn_seeking s = {
-        .houses = h, .variants = variants, .wanted = h->best.items[point].value, .each = each, .context = context};
+    tn_seeking s = {.houses = h, .wanted = h->best.items[point].value, .each = each, .context = context};
     s.trays = malloc(((size_t)h->high + 1) * sizeof *s.trays);
     s.plans = calloc((size_t)h->high + 1, sizeof *s.plans);
     s.gains = malloc(((size_t)h->high + 1) * sizeof *s.gains);
-    mpz_init(s.given);
+    mpz_init(s.tiles);
     tn_status status = s.trays && s.plans && s.gains ? TN_OK : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_houses_furnisher(h, &s.furnisher, error);
     if (status == TN_OK && values_need_faces(h->measures))
         status = tn_house_rules_new(h->form, 0, &s.rules, error);
     for (s.length = h->low; status == TN_OK && !s.stop && s.length <= h->high; s.length++)
@@ -259,6 +302,6 @@ tn_status tn_houses_point_each(tn_houses *h, size_t point, tn_house_variants *va
     free(s.trays);
     free(s.plans);
     free(s.gains);
-    mpz_clear(s.given);
+    mpz_clear(s.tiles);
     return status;
 }

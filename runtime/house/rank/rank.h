@@ -8,34 +8,45 @@
 #define TARTAN_HOUSE_RANK_RANK_H
 
 #include "runtime/house/count/houses.h"
-#include "runtime/house/variant/variant.h"
 
 /* How many houses come before the first on this plan, one of the library's. */
 tn_status tn_houses_before(tn_houses *houses, const tn_tray *trays, uint32_t length, mpz_t before, tn_error *error);
 
 /* The plan of the house of a rank: fills trays (room for tn_library_max) and its length; rank becomes the house's
- * number among those on the plan, of which there are so many. TN_INVALID (E1618) where no house has the rank. */
+ * number among those on the plan, of which there are so many. TN_INVALID (E1618) if no house has the rank. */
 tn_status tn_houses_find(tn_houses *houses, mpz_t rank, tn_tray *trays, uint32_t *length, mpz_t on_plan,
                          tn_error *error);
 
-/* The houses on one plan of these houses, whose states are found once. Borrows all that it is made of; the variants are
- * of the same library. Free with tn_plan_houses_free, also after a failure. */
+/* The houses on one plan of these houses, whose states are found once. Borrows all that it is made of. Free with
+ * tn_plan_houses_free, also after a failure. */
 typedef struct tn_plan_houses tn_plan_houses;
-tn_status tn_plan_houses_new(tn_houses *houses, tn_house_variants *variants, const tn_tray *trays, uint32_t length,
-                             tn_plan_houses **plan, tn_error *error);
+tn_status tn_plan_houses_new(tn_houses *houses, const tn_tray *trays, uint32_t length, tn_plan_houses **plan,
+                             tn_error *error);
 void tn_plan_houses_free(tn_plan_houses *plan);
 
-/* The house that `variant` others come before. TN_INVALID (E1618) where there are not so many. Clear *house in any
+/* How many houses there are on the plan. */
+tn_status tn_plan_houses_count(tn_plan_houses *plan, mpz_t houses, tn_error *error);
+
+/* The house that `variant` others come before. TN_INVALID (E1618) if there are not so many. Clear *house in any
  * case. */
 tn_status tn_plan_houses_at(tn_plan_houses *plan, const mpz_t variant, tn_house *house, tn_error *error);
 
-/* How many houses come before this one, which is on the plan. TN_INVALID (E1618) where the library does not keep it. */
+/* Calls `each` with the houses from that number on, in order, until there are no more or *stop. From one house to the
+ * next only what changes is chosen anew. */
+tn_status tn_plan_houses_each(tn_plan_houses *plan, const mpz_t from, tn_house_each *each, void *context,
+                              tn_error *error);
+
+/* How many there are without their tiles, gone through one by one; *known: they are at most so many. If clauses compare
+ * what tiles cost, this is not counted with the houses (tn_houses_faced_known). */
+tn_status tn_plan_houses_faced(tn_plan_houses *plan, uint64_t most, uint64_t *faced, bool *known, tn_error *error);
+
+/* How many houses come before this one, which is on the plan. TN_INVALID (E1618) if the library does not keep it. */
 tn_status tn_plan_houses_number(tn_plan_houses *plan, const tn_house *house, mpz_t variant, tn_error *error);
 
 /* Houses by rank. The plans that were asked for last are kept with their states, as long as these are not too many.
- * Borrows the houses and their variants. Free with tn_house_ranks_free, also after a failure. */
+ * Borrows the houses. Free with tn_house_ranks_free, also after a failure. */
 typedef struct tn_house_ranks tn_house_ranks;
-tn_status tn_house_ranks_new(tn_houses *houses, tn_house_variants *variants, tn_house_ranks **ranks, tn_error *error);
+tn_status tn_house_ranks_new(tn_houses *houses, tn_house_ranks **ranks, tn_error *error);
 void tn_house_ranks_free(tn_house_ranks *ranks);
 
 /* The same as tn_houses_find. */
@@ -46,9 +57,7 @@ tn_status tn_house_ranks_plan(tn_house_ranks *ranks, const tn_tray *trays, uint3
                               tn_error *error);
 
 /* Calls `each` with the houses that have value `point` of these (count/houses.h), in the order of their ranks, until
- * there are no more or *stop. No other house is looked at. The house is borrowed for the call. variants: of the same
- * library. */
-tn_status tn_houses_point_each(tn_houses *houses, size_t point, tn_house_variants *variants, tn_house_each *each,
-                               void *context, tn_error *error);
+ * there are no more or *stop. No other house is looked at. The house is borrowed for the call. */
+tn_status tn_houses_point_each(tn_houses *houses, size_t point, tn_house_each *each, void *context, tn_error *error);
 
 #endif

@@ -17,19 +17,17 @@ typedef struct tn_ranked_plan {
 
 struct tn_house_ranks {
     tn_houses *houses;
-    tn_house_variants *variants;
     tn_ranked_plan plans[PLANS_MOST];
     size_t count;
     uint64_t now;
 };
 
-tn_status tn_house_ranks_new(tn_houses *houses, tn_house_variants *variants, tn_house_ranks **out, tn_error *error)
+tn_status tn_house_ranks_new(tn_houses *houses, tn_house_ranks **out, tn_error *error)
 {
     tn_house_ranks *r = *out = calloc(1, sizeof *r);
     if (!r)
         return tn_fail_memory(error);
     r->houses = houses;
-    r->variants = variants;
     return TN_OK;
 }
 
@@ -93,7 +91,7 @@ tn_status tn_house_ranks_plan(tn_house_ranks *r, const tn_tray *trays, uint32_t 
     tn_status status = plan ? TN_OK : tn_fail_memory(error);
     *houses = NULL;
     if (status == TN_OK && !plan->houses)
-        status = tn_plan_houses_new(r->houses, r->variants, trays, length, &plan->houses, error);
+        status = tn_plan_houses_new(r->houses, trays, length, &plan->houses, error);
     if (status != TN_OK)
         return status;
     plan->used = ++r->now;

@@ -90,77 +90,83 @@ tn_status tn_path_step(tn_plan_path *p, uint32_t tray, uint32_t state, uint32_t 
                 : tn_frontier_step(frontier, tray, state, slice, seen, context, error);
 }
 
-/* ---- states */
+/* ---- states: a graph of keys, which are the numbers of these states with their values */
 
-static tn_status add_node(void *context, uint32_t state, uint64_t times, uint64_t faced, const tn_house_gain *gain,
-                          tn_error *error)
+static tn_numbering *nodes_of(void *context, uint32_t layer)
 {
-    tn_houses_layer *layer = context;
-    (void)times;
+    return &((tn_plan_path *)context)->kind.layers[layer].nodes;
+}
+
+typedef struct tn_valued_node {
+    tn_key_walk *walk;
+    uint32_t place;
+    uint64_t ways; /* of the slice */
+} tn_valued_node;
+
+static tn_status show(void *context, uint32_t state, uint64_t times, uint64_t faced, const tn_house_gain *gain,
+                      tn_error *error)
+{
+    const tn_valued_node *n = context;
+    const tn_houses_edge edge = {.from = n->place, .state = state, .ways = n->ways, .times = times};
     (void)faced;
     (void)gain;
-    return tn_number(&layer->nodes, state) != UINT32_MAX ? TN_OK : tn_fail_memory(error);
+    return n->walk->layer < n->walk->last ? tn_key_walk_edge(n->walk, n->place, state, &edge, error)
+                                          : tn_key_walk_end(n->walk, n->place, &edge, error);
 }
 
-static tn_status find_nodes(tn_plan_path *p, uint32_t tray, tn_error *error)
+static tn_status show_edges(void *context, uint32_t layer, tn_key_walk *walk, tn_error *error)
 {
-    const tn_frontier_list *slices = &p->kind.frontier->slices.of_tray[p->view.only[tray]];
-    tn_houses_layer *after = &p->kind.layers[tray + 1];
+    tn_plan_path *p = context;
+    const tn_frontier_list *slices = &p->kind.frontier->slices.of_tray[p->view.only[layer]];
     tn_status status = tn_watch_check(p->kind.frontier->watch, error);
-    for (uint32_t i = 0; status == TN_OK && i < p->kind.layers[tray].nodes.count; i++)
-        for (size_t k = 0; status == TN_OK && k < slices->count; k++)
-            status =
-                tn_path_step(p, tray, tn_path_state(p, tray, i), slices->items[k].slice, NULL, add_node, after, error);
+    for (uint32_t i = 0; status == TN_OK && i < p->kind.layers[layer].nodes.count; i++)
+        for (size_t k = 0; status == TN_OK && k < slices->count; k++) {
+            tn_valued_node n = {walk, i, slices->items[k].times};
+            status = tn_path_step(p, layer, tn_path_state(p, layer, i), slices->items[k].slice, NULL, show, &n, error);
+        }
     return status;
 }
 
-/* ahead := the houses that go on from a node after so many trays. */
-static tn_status count_ahead(tn_plan_path *p, uint32_t trays, uint32_t node, tn_path_sum *sum, mpz_t ahead,
-                             tn_error *error)
+static tn_status show_ends(void *context, uint32_t layer, tn_key_walk *walk, tn_error *error)
 {
-    uint32_t state = tn_path_state(p, trays, node);
-    if (trays < p->length) {
-        const tn_frontier_list *slices = &p->kind.frontier->slices.of_tray[p->view.only[trays]];
-        return tn_path_count_on(p, trays, state, slices->items, slices->count, sum, ahead, error);
+    tn_plan_path *p = context;
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; layer == p->length && status == TN_OK && i < p->kind.layers[layer].nodes.count; i++) {
+        tn_valued_node n = {walk, i, 1};
+        status = tn_path_step(p, layer, tn_path_state(p, layer, i), TN_FRONTIER_NONE, NULL, show, &n, error);
     }
-    mpz_set_ui(sum->houses, 0);
-    tn_status status = tn_path_step(p, trays, state, TN_FRONTIER_NONE, NULL, tn_path_add, sum, error);
-    mpz_set(ahead, sum->houses);
     return status;
 }
 
-static tn_status look_ahead(tn_plan_path *p, uint32_t trays, tn_path_sum *sum, tn_error *error)
+static tn_status pass(void *context, void *sum, const void *element, const tn_walk_edge *at, tn_error *error)
 {
-    tn_houses_layer *layer = &p->kind.layers[trays];
-    tn_status status = tn_watch_check(p->kind.frontier->watch, error);
-    layer->ahead = tn_integers_new(layer->nodes.count);
-    if (!layer->ahead)
-        return tn_fail_memory(error);
-    sum->trays = trays + 1;
-    sum->ahead = trays < p->length ? layer[1].ahead : NULL;
-    for (uint32_t i = 0; status == TN_OK && i < layer->nodes.count; i++)
-        status = count_ahead(p, trays, i, sum, layer->ahead[i], error);
-    return status;
+    (void)context;
+    (void)sum;
+    (void)element;
+    (void)at;
+    (void)error;
+    return TN_OK;
 }
 
 tn_status tn_path_find_valued(tn_plan_path *p, const tn_path_aim *aim, const tn_tray *trays, uint32_t length,
                               tn_error *error)
 {
+    static const tn_key_graph graph = {nodes_of, show_edges, show_ends};
+    static const tn_walk_algebra meeting = {.add = pass};
     *p = (tn_plan_path){.view = *aim->houses, .kind = {.frontier = aim->kind->frontier}, .length = length, .aim = aim};
     p->view.only = trays;
     p->view.low = p->view.high = length;
     p->view.whole_steps = true;
     p->stages = 1;
     p->kind.layers = calloc((size_t)length + 1, sizeof *p->kind.layers);
-    if (!p->kind.layers || tn_number(&p->kind.layers[0].nodes, TN_FRONTIER_NONE) == UINT32_MAX)
+    if (!p->kind.layers)
         return tn_fail_memory(error);
-    tn_status status = TN_OK;
-    for (uint32_t i = 0; status == TN_OK && i < length; i++)
-        status = find_nodes(p, i, error);
-    tn_path_sum sum = {.path = p};
-    mpz_init(sum.houses);
-    for (uint32_t i = length + 1; status == TN_OK && i-- > 0;)
-        status = look_ahead(p, i, &sum, error);
-    mpz_clear(sum.houses);
+    tn_key_walk walk = {.graph = &graph, .graph_context = p, .last = length};
+    tn_status status = tn_key_walk_begin(&walk, TN_FRONTIER_NONE, error);
+    if (status == TN_OK)
+        status = tn_key_walk_forward(&walk, &(tn_key_question){&meeting, NULL, p, 0}, error);
+    if (status == TN_OK)
+        status = tn_houses_look_back(&p->view, &p->kind, &walk, error);
+    tn_key_walk_clear(&walk, NULL, NULL);
     return status == TN_OK ? tn_path_begin_states(p, error) : status;
 }

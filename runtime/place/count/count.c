@@ -1,13 +1,16 @@
-/* Counts connected sets of slots as D. H. Redelmeier counts polyominoes ("Counting polyominoes: yet another attack",
- * 1981): a set grows from its lowest slot, and each slot that it could grow by is either taken, or never taken while
- * the rest stays. The last part is not placed: the slots that are left are counted. Sets up to turning follow by
- * Burnside's lemma. */
+/* Counts and lists connected sets of slots: everywhere, or inside of a model's space. */
 #include "runtime/place/count/count.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/base/array.h"
+#include "runtime/place/space.h"
+
+/* ==== counts connected sets of slots as D. H. Redelmeier counts polyominoes ("Counting polyominoes: yet another
+ * attack", 1981): a set grows from its lowest slot, and each slot that it could grow by is either taken, or never taken
+ * while the rest stays. The last part is not placed: the slots that are left are counted. Sets up to turning follow by
+ * Burnside's lemma */
 
 enum { SEEN = 128 }; /* above how many of the chosen overlap a slot */
 
@@ -267,8 +270,10 @@ static tn_status count_sets(const tn_lattice *l, const uint8_t *forbidden, uint3
     return status;
 }
 
-tn_status tn_visit_sets(const tn_lattice *l, const uint8_t *forbidden, uint32_t parts, tn_watch *watch,
-                        tn_slots_visit *visit, void *context, tn_error *error)
+/* Shows each of those sets once, always in the same order. forbidden NULL: all slots are allowed, and sets whose lowest
+ * slot is at the middle are shown. TN_MEMORY, TN_STOPPED, or what the visit says. */
+static tn_status visit_sets(const tn_lattice *l, const uint8_t *forbidden, uint32_t parts, tn_watch *watch,
+                            tn_slots_visit *visit, void *context, tn_error *error)
 {
     count_work w = {
         .lattice = l, .parts = parts, .watch = watch, .forbidden = forbidden, .visit = visit, .context = context};
@@ -281,8 +286,9 @@ tn_status tn_visit_sets(const tn_lattice *l, const uint8_t *forbidden, uint32_t 
     return status;
 }
 
-tn_status tn_count_allowed(const tn_lattice *l, const uint8_t *forbidden, uint32_t parts, unsigned threads,
-                           tn_watch *watch, uint64_t *count, tn_error *error)
+/* The sets of so many slots that hang together and are allowed: [slot], 0 if it is. */
+static tn_status count_allowed(const tn_lattice *l, const uint8_t *forbidden, uint32_t parts, unsigned threads,
+                               tn_watch *watch, uint64_t *count, tn_error *error)
 {
     *count = 0;
     if (parts > 1)
@@ -309,6 +315,270 @@ tn_status tn_count_buildings(const tn_place_rules *rules, const bool *wanted, ui
             status = tn_count_turned(&lattice, parts, 1, threads, watch, &counts->quarter, error);
     }
     counts->buildings = (counts->fixed + counts->half + 2 * counts->quarter) / 4; /* Burnside */
+    tn_lattice_clear(&lattice);
+    return status;
+}
+
+/* ==== counts buildings where they stand: the slots of the lattice whose cells are inside of a model's space are
+ * allowed */
+
+/* The lowest corner of the first wanted part that the model's rules place where it starts: the lattice goes through it.
+ */
+static tn_status find_anchor(const tn_place_rules *rules, const bool *wanted, int32_t anchor[3], tn_error *error)
+{
+    tn_site_choices c;
+    bool found = false;
+    tn_status status = tn_site_choices_make(rules, &c, error);
+    for (size_t s = c.start_first; status == TN_OK && s < c.site_count && !found; s++) {
+        const tn_choice_symbol *symbol = &c.symbols[c.sites[s].symbol];
+        for (uint32_t i = 0; i < symbol->count && !found; i++) {
+            const tn_site_choice *choice = &c.choices[symbol->first + i];
+            const tn_chosen_part *part = &c.parts[choice->part_first];
+            if (choice->part_count == 0 || (wanted && !wanted[part->kind]))
+                continue;
+            tn_frame frame = tn_frame_from(&c.sites[s].frame, &part->frame);
+            tn_cell_box all = tn_kind_all(&c.kinds[part->kind], frame.heading);
+            for (int k = 0; k < 3; k++)
+                anchor[k] = frame.at[k] + all.low[k];
+            found = true;
+        }
+    }
+    tn_site_choices_clear(&c);
+    if (status != TN_OK || found)
+        return status;
+    tn_fail(error, TN_INVALID, E_COUNT_START, "model %.100s starts with none of the parts that are counted",
+            tn_text(rules->module, rules->space->name));
+    tn_error_help(error, "where it starts says where parts may lie: name a part that its rule places there by --part");
+    return TN_INVALID;
+}
+
+/* Is the part of a slot inside of the space, whose cells are those that are free? */
+static bool is_inside(const tn_lattice *l, size_t slot, const int32_t anchor[3], tn_cells *cells)
+{
+    int32_t corner[3];
+    const tn_look *look = &l->looks[tn_slot_look(l, slot, corner)];
+    const tn_kind_of_part *kind = &l->kinds.kinds[look->kind];
+    tn_cell_box all = tn_kind_all(kind, look->heading);
+    for (int k = 0; k < 3; k++)
+        corner[k] += anchor[k] - all.low[k];
+    for (uint32_t b = 0; b < kind->record->box_count; b++) {
+        tn_cell_box turned = tn_kind_box(kind, look->heading, b), box = tn_box_from(&turned, corner);
+        if (tn_cells_any(cells, &box))
+            return false;
+    }
+    return true;
+}
+
+/* forbidden: [slot], zeros. */
+static tn_status find_forbidden(const tn_place_rules *rules, const tn_lattice *l, const int32_t anchor[3],
+                                uint8_t *forbidden, tn_watch *watch, tn_error *error)
+{
+    tn_space *space = NULL;
+    tn_cells *cells = tn_cells_new(watch);
+    tn_status status = cells ? tn_space_new(rules, &space, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        tn_cells_bound(cells, tn_space_cells(space));
+    for (size_t slot = 0; slot < l->slot_count && status == TN_OK; slot++) {
+        if (tn_watch_stopped_at(watch, slot))
+            status = tn_fail_stopped(watch, error);
+        forbidden[slot] = !is_inside(l, slot, anchor, cells);
+    }
+    if (status == TN_OK)
+        status = tn_cells_status(cells, error);
+    tn_cells_free(cells);
+    tn_space_free(space);
+    return status;
+}
+
+static tn_status cover_space(const tn_place_rules *rules, tn_lattice *l, const int32_t anchor[3], tn_error *error)
+{
+    const tn_kit_model_record *model = rules->space;
+    const int64_t low[3] = {model->low_x, model->low_y, model->low_z},
+                  high[3] = {model->high_x, model->high_y, model->high_z};
+    tn_cell_box box;
+    for (int k = 0; k < 3; k++) {
+        box.low[k] = (int32_t)(low[k] - anchor[k]);
+        box.high[k] = (int32_t)(high[k] - anchor[k]);
+    }
+    return tn_lattice_cover(l, &box, error);
+}
+
+/* The lattice on which that is counted, through the anchor, and [slot] what is forbidden there: the caller clears the
+ * one and frees the other in any case. */
+static tn_status lattice_inside(const tn_place_rules *rules, const bool *wanted, tn_watch *watch, tn_lattice *lattice,
+                                int32_t anchor[3], uint8_t **forbidden, tn_error *error)
+{
+    *forbidden = NULL;
+    *lattice = (tn_lattice){0};
+    tn_status status = find_anchor(rules, wanted, anchor, error);
+    if (status == TN_OK)
+        status = tn_lattice_make(rules, wanted, lattice, error);
+    if (status == TN_OK)
+        status = cover_space(rules, lattice, anchor, error);
+    if (status != TN_OK)
+        return status;
+    *forbidden = calloc(lattice->slot_count, sizeof **forbidden);
+    return *forbidden ? find_forbidden(rules, lattice, anchor, *forbidden, watch, error) : tn_fail_memory(error);
+}
+
+tn_status tn_count_inside(const tn_place_rules *rules, const bool *wanted, uint32_t parts, unsigned threads,
+                          tn_watch *watch, uint64_t *count, tn_error *error)
+{
+    tn_lattice lattice;
+    int32_t anchor[3];
+    uint8_t *forbidden;
+    *count = 0;
+    tn_status status = lattice_inside(rules, wanted, watch, &lattice, anchor, &forbidden, error);
+    if (status == TN_OK)
+        status = count_allowed(&lattice, forbidden, parts, threads, watch, count, error);
+    free(forbidden);
+    tn_lattice_clear(&lattice);
+    return status;
+}
+
+/* ==== lists buildings as count.c finds them. Of those that turning takes to one another the least is shown: so each
+ * comes once, and nothing that was shown need be kept */
+
+enum { COLOUR = 1 };
+
+/* A part by its lowest corner and its look. */
+typedef struct lying {
+    int32_t corner[3];
+    uint32_t look;
+} lying;
+
+typedef struct listing {
+    const tn_building_list *list;
+    const tn_lattice *lattice;
+    tn_watch *watch;
+    int32_t anchor[3]; /* INSIDE: the corner of the middle */
+    lying set[TN_COUNT_PARTS_MAX], turned[TN_COUNT_PARTS_MAX];
+    tn_placed_part parts[TN_COUNT_PARTS_MAX];
+} listing;
+
+static int compare(const lying *a, const lying *b)
+{
+    static const int axes[] = {1, 2, 0};
+    for (int i = 0; i < 3; i++)
+        if (a->corner[axes[i]] != b->corner[axes[i]])
+            return a->corner[axes[i]] < b->corner[axes[i]] ? -1 : 1;
+    return (a->look > b->look) - (a->look < b->look);
+}
+
+static int by_corner(const void *a, const void *b)
+{
+    return compare(a, b);
+}
+
+/* In order, seen from the first: so that those that differ by where they stand are equal. */
+static void settle(lying *set, uint32_t count)
+{
+    qsort(set, count, sizeof *set, by_corner); /* no two are equal: they would overlap */
+    const lying first = set[0];
+    for (uint32_t i = 0; i < count; i++)
+        for (int k = 0; k < 3; k++)
+            set[i].corner[k] -= first.corner[k];
+}
+
+/* A quarter turn: (x, z) to (-z, x), as in tn_turn_place. */
+static void turn(const tn_lattice *l, lying *set, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const tn_look *look = &l->looks[set[i].look];
+        int32_t x = -set[i].corner[2] - look->size[2];
+        set[i].corner[2] = set[i].corner[0];
+        set[i].corner[0] = x;
+        set[i].look = tn_look_of(l, look->kind, tn_turn_after(1, look->heading));
+    }
+    settle(set, count);
+}
+
+/* Is it the least of those that turning makes of it? */
+static bool is_least(listing *n)
+{
+    uint32_t count = n->list->parts;
+    memcpy(n->turned, n->set, count * sizeof *n->set);
+    for (int turns = 1; turns < 4; turns++) {
+        int order = 0;
+        turn(n->lattice, n->turned, count);
+        for (uint32_t i = 0; i < count && order == 0; i++)
+            order = compare(&n->turned[i], &n->set[i]);
+        if (order < 0)
+            return false;
+    }
+    return true;
+}
+
+/* Heights grow downwards: the last is the lowest. */
+static void stand(listing *n)
+{
+    uint32_t count = n->list->parts;
+    for (uint32_t i = 0; i < count; i++) {
+        const lying *from = &n->set[count - 1 - i];
+        const tn_look *look = &n->lattice->looks[from->look];
+        const tn_kind_of_part *kind = &n->lattice->kinds.kinds[look->kind];
+        tn_placed_part *part = &n->parts[i];
+        part->name = tn_text(n->list->rules->module, kind->record->name);
+        part->frame = (tn_frame){.heading = look->heading, .colour = COLOUR};
+        const tn_cell_box all = tn_kind_all(kind, look->heading);
+        for (int k = 0; k < 3; k++)
+            part->frame.at[k] = from->corner[k] - all.low[k];
+    }
+    const tn_frame first = n->parts[0].frame;
+    for (uint32_t i = 0; i < count && n->list->kind != TN_BUILDINGS_INSIDE; i++)
+        for (int k = 0; k < 3; k++)
+            n->parts[i].frame.at[k] -= first.at[k];
+}
+
+static tn_status show(void *context, const uint32_t *slots, tn_error *error)
+{
+    listing *n = context;
+    uint32_t count = n->list->parts;
+    if (tn_watch_stopped(n->watch))
+        return tn_fail_stopped(n->watch, error);
+    for (uint32_t i = 0; i < count; i++)
+        n->set[i].look = tn_slot_look(n->lattice, slots[i], n->set[i].corner);
+    settle(n->set, count);
+    if (n->list->kind == TN_BUILDINGS_TURNED && !is_least(n))
+        return TN_OK;
+    if (n->list->kind == TN_BUILDINGS_INSIDE) {
+        lying first;
+        first.look = tn_slot_look(n->lattice, slots[0], first.corner); /* the lowest slot is the first of the set */
+        for (uint32_t i = 0; i < count; i++)
+            for (int k = 0; k < 3; k++)
+                n->set[i].corner[k] += first.corner[k] + n->anchor[k];
+    }
+    stand(n);
+    const tn_placed_model model = {.parts = n->parts, .count = count};
+    return n->list->visit(n->list->context, &model, error);
+}
+
+static tn_status list_inside(listing *n, tn_error *error)
+{
+    tn_lattice lattice;
+    uint8_t *forbidden;
+    n->lattice = &lattice;
+    tn_status status =
+        lattice_inside(n->list->rules, n->list->wanted, n->watch, &lattice, n->anchor, &forbidden, error);
+    if (status == TN_OK)
+        status = visit_sets(&lattice, forbidden, n->list->parts, n->watch, show, n, error);
+    free(forbidden);
+    tn_lattice_clear(&lattice);
+    return status;
+}
+
+tn_status tn_list_buildings(const tn_building_list *list, tn_watch *watch, tn_error *error)
+{
+    listing n = {.list = list, .watch = watch};
+    tn_lattice lattice;
+    if (list->kind == TN_BUILDINGS_INSIDE)
+        return list_inside(&n, error);
+    n.lattice = &lattice;
+    tn_status status = tn_lattice_make(list->rules, list->wanted, &lattice, error);
+    if (status == TN_OK && lattice.look_count > 0)
+        status = tn_lattice_size(&lattice, list->parts, error);
+    if (status == TN_OK && lattice.look_count > 0)
+        status = visit_sets(&lattice, NULL, list->parts, watch, show, &n, error);
     tn_lattice_clear(&lattice);
     return status;
 }

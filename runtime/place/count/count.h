@@ -20,30 +20,42 @@ tn_status tn_count_buildings(const tn_place_rules *rules, const bool *wanted, ui
                              unsigned threads, tn_watch *watch, tn_building_counts *counts, tn_error *error);
 
 /* Counts the sets of `parts` parts that hang together, each where it stands, inside of the space of the rules' model:
- * on the lattice of what the model's rule places first where it starts. E1338 where it places none of the wanted parts
+ * on the lattice of what the model's rule places first where it starts. E1338 if it places none of the wanted parts
  * there. Otherwise as above. */
 tn_status tn_count_inside(const tn_place_rules *rules, const bool *wanted, uint32_t parts, unsigned threads,
                           tn_watch *watch, uint64_t *count, tn_error *error);
 
-/* The lattice on which that is counted, through the anchor, and [slot] what is forbidden there: the caller clears the
- * one and frees the other in any case. */
-tn_status tn_lattice_inside(const tn_place_rules *rules, const bool *wanted, tn_watch *watch, tn_lattice *lattice,
-                            int32_t anchor[3], uint8_t **forbidden, tn_error *error);
-
-/* The sets of so many slots that hang together and are allowed: [slot], 0 where it is. */
-tn_status tn_count_allowed(const tn_lattice *lattice, const uint8_t *forbidden, uint32_t parts, unsigned threads,
-                           tn_watch *watch, uint64_t *count, tn_error *error);
-
 /* A set of slots: the lowest first, then as it grew. Anything but TN_OK ends the walk. */
 typedef tn_status tn_slots_visit(void *context, const uint32_t *slots, tn_error *error);
-
-/* Shows each of those sets once, always in the same order. forbidden NULL: all slots are allowed, and sets whose lowest
- * slot is at the middle are shown. TN_MEMORY, TN_STOPPED, or what the visit says. */
-tn_status tn_visit_sets(const tn_lattice *lattice, const uint8_t *forbidden, uint32_t parts, tn_watch *watch,
-                        tn_slots_visit *visit, void *context, tn_error *error);
 
 /* Those that are taken to themselves by quarter turns, so many at once (1 or 2), about any vertical. */
 tn_status tn_count_turned(const tn_lattice *lattice, uint32_t parts, uint32_t turns, unsigned threads, tn_watch *watch,
                           uint64_t *count, tn_error *error);
+
+/* Listing the buildings that count.h counts: each once, always in the same order, in memory that does not grow with
+ * their number. */
+
+typedef enum tn_buildings_kind {
+    TN_BUILDINGS_TURNED, /* those that differ by a turn about the vertical are one */
+    TN_BUILDINGS_FIXED,  /* each turn of it is another */
+    TN_BUILDINGS_INSIDE, /* where they stand, inside of the space of the rules' model */
+} tn_buildings_kind;
+
+/* A building: its parts from the lowest up, and in a layer from back to front and right to left. The first stands at
+ * the origin, but for those inside of a space. Colours are those of models that name none. The model is borrowed for
+ * the call. Anything but TN_OK ends the list. */
+typedef tn_status tn_building_visit(void *context, const tn_placed_model *model, tn_error *error);
+
+typedef struct tn_building_list {
+    const tn_place_rules *rules; /* with a space for INSIDE alone */
+    const bool *wanted;          /* as in tn_count_buildings */
+    uint32_t parts;              /* 1 to TN_COUNT_PARTS_MAX */
+    tn_buildings_kind kind;
+    tn_building_visit *visit;
+    void *context;
+} tn_building_list;
+
+/* TN_MEMORY, TN_STOPPED, TN_LIMIT (E1313), E1338 as in count.h, or what the visit says. */
+tn_status tn_list_buildings(const tn_building_list *list, tn_watch *watch, tn_error *error);
 
 #endif

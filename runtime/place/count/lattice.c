@@ -7,7 +7,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/place/joints.h"
-#include "runtime/place/search/kinds.h"
+#include "runtime/place/search/choices.h"
 
 enum { PAIRS_MAX = 1 << 21 };
 #define SLOTS_MAX ((size_t)1 << 28)

@@ -57,11 +57,11 @@ typedef struct tn_place_rules {
     uint32_t symbol_count, alternative_count, step_count;
 } tn_place_rules;
 
-/* Decodes the connection grammar of a verified module, which has to outlive the rules. TN_INVALID where it has none. */
+/* Decodes the connection grammar of a verified module, which has to outlive the rules. TN_INVALID if it has none. */
 tn_status tn_place_rules_make(const tn_module *module, tn_place_rules *rules, tn_error *error);
 void tn_place_rules_clear(tn_place_rules *rules);
 
-/* The model of this name of a kit, or its only one where that is NULL. TN_INVALID (E1317) where there is none, or where
+/* The model of this name of a kit, or its only one where that is NULL. TN_INVALID (E1317) if there is none, or where
  * there are several to choose from, which the help names. */
 tn_status tn_kit_model_find(const tn_module *module, const char *name, uint32_t *model, tn_error *error);
 

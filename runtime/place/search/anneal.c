@@ -1,22 +1,219 @@
-/* Annealing: again and again some neighbouring parts are taken away, with all that hangs on them alone, and the model
- * is grown again there, at random. The new model is kept unless it is worse than the one of some rounds before (late
- * acceptance hill climbing: Burke and Bykov, 2017), so that no temperature has to be found.
- *
- * A few chains go their ways at once, each with random numbers of its own; their number does not depend on that of the
- * threads. */
+/* Annealing: a model is changed again and again, and a change is kept unless it is much worse. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/base/array.h"
+#include "runtime/base/hash_table.h"
 #include "runtime/base/random.h"
-#include "runtime/place/search/hang.h"
 #include "runtime/place/search/run.h"
+#include "runtime/place/search/world.h"
+
+/* A connector of what is put. */
+typedef struct hang_socket {
+    int32_t at[3];
+    uint32_t put; /* its index */
+} hang_socket;
+
+typedef struct hanging {
+    hang_socket *sockets;
+    size_t socket_count, socket_capacity;
+    tn_hash_table socket_index; /* by place: several may have one */
+    uint32_t *order;
+    bool *held;
+    size_t capacity;
+    tn_open_site *sites; /* of the held ones, in order */
+    size_t site_count, site_capacity;
+} hanging;
+
+/* ---- goes from the connectors at which the model starts to what stands there, and on from the connectors of that.
+ * What has a connector at a place is found by a hash table */
+
+static uint64_t hash_place(const int32_t at[3])
+{
+    uint64_t hash = tn_mix64((uint64_t)(uint32_t)at[0] << 32 | (uint32_t)at[1]);
+    return tn_mix64(hash ^ (uint32_t)at[2]);
+}
+
+/* For sockets that are entered: each is new. */
+static bool is_none(const void *wanted, uint32_t number)
+{
+    (void)wanted;
+    (void)number;
+    return false;
+}
+
+static void add_sockets(hanging *h, const tn_site_choices *c, const tn_put *put, uint32_t index)
+{
+    const tn_module *module = c->rules->module;
+    const tn_chosen_part *part = &c->parts[c->choices[put->choice].part_first]; /* that joins where it is put */
+    if (put->choice == c->standing)
+        return;
+    const tn_kit_part_record *record = c->kinds[part->kind].record;
+    tn_frame frame = tn_frame_from(&put->at, &part->frame);
+    for (uint32_t i = 0; i < record->connector_count; i++) {
+        const tn_part_connector_record *from = &module->PART_CONNECTOR_records[record->connector_first + i];
+        const tn_frame relative = {.at = {(int32_t)from->x, (int32_t)from->y, (int32_t)from->z}};
+        tn_frame at = tn_frame_from(&frame, &relative);
+        uint32_t number = (uint32_t)h->socket_count++;
+        memcpy(h->sockets[number].at, at.at, sizeof at.at);
+        h->sockets[number].put = index;
+        (void)tn_hash_enter(&h->socket_index, hash_place(at.at), is_none, NULL, &number, NULL); /* there is room */
+    }
+}
+
+static bool make_sockets(hanging *h, const tn_site_choices *c, const tn_standing *plan)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < plan->put_count; i++)
+        count += c->kinds[c->parts[c->choices[plan->puts[i].choice].part_first].kind].record->connector_count;
+    tn_hash_forget(&h->socket_index);
+    h->socket_count = 0;
+    if (!tn_array_reserve(&h->sockets, &h->socket_capacity, 0, count, sizeof *h->sockets) ||
+        tn_hash_reserve(&h->socket_index, count, NULL) != TN_OK)
+        return false;
+    for (size_t i = 0; i < plan->put_count; i++)
+        add_sockets(h, c, &plan->puts[i], (uint32_t)i);
+    return true;
+}
+
+/* Room for so many puts. */
+static bool make_room(hanging *h, size_t puts)
+{
+    if (puts <= h->capacity)
+        return true;
+    if (!tn_array_resize(&h->order, puts, sizeof *h->order) || !tn_array_resize(&h->held, puts, sizeof *h->held))
+        return false;
+    h->capacity = puts;
+    return true;
+}
+
+static tn_status add_sites(hanging *h, const tn_open_site *sites, size_t count, const tn_frame *base, tn_error *error)
+{
+    if (!tn_array_reserve(&h->sites, &h->site_capacity, h->site_count, count, sizeof *h->sites))
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < count; i++)
+        h->sites[h->site_count++] = (tn_open_site){sites[i].symbol, tn_frame_from(base, &sites[i].frame)};
+    return TN_OK;
+}
+
+typedef struct wanted_put {
+    const hanging *hanging;
+    const tn_site_choices *choices;
+    const tn_standing *plan;
+    const tn_open_site *site;
+} wanted_put;
+
+static bool may_hold(const void *context, uint32_t number)
+{
+    const wanted_put *w = context;
+    const hang_socket *socket = &w->hanging->sockets[number];
+    if (w->hanging->held[socket->put] || memcmp(socket->at, w->site->frame.at, sizeof socket->at) != 0)
+        return false;
+    const tn_put *put = &w->plan->puts[socket->put];
+    return tn_choice_may_stand(w->choices, w->site, &w->choices->choices[put->choice], &put->at);
+}
+
+/* The put that stands at a site by its rule, and was not reached before; UINT32_MAX: none. */
+static uint32_t find_put(const hanging *h, const tn_site_choices *c, const tn_standing *plan, const tn_open_site *site)
+{
+    wanted_put wanted = {h, c, plan, site};
+    uint32_t number = tn_hash_find(&h->socket_index, hash_place(site->frame.at), may_hold, &wanted);
+    return number == TN_HASH_NONE ? UINT32_MAX : h->sockets[number].put;
+}
+
+static tn_status reach(hanging *h, const tn_site_choices *c, const tn_standing *plan, size_t *count, tn_error *error)
+{
+    h->site_count = *count = 0;
+    tn_status status =
+        add_sites(h, &c->sites[c->start_first], c->site_count - c->start_first, &(tn_frame){.heading = 0}, error);
+    if (c->standing != TN_NONE_STANDS) { /* it hangs on nothing, and is the first */
+        h->held[0] = true;
+        h->order[(*count)++] = 0;
+    }
+    for (size_t next = 0; next < h->site_count && status == TN_OK; next++) {
+        uint32_t index = find_put(h, c, plan, &h->sites[next]);
+        if (index == UINT32_MAX)
+            continue;
+        const tn_put *put = &plan->puts[index];
+        const tn_site_choice *choice = &c->choices[put->choice];
+        h->held[index] = true;
+        h->order[(*count)++] = index;
+        status = add_sites(h, &c->sites[choice->site_first], choice->site_count, &put->at, error);
+    }
+    return status;
+}
+
+/* Opens the connectors where something may come that needs cells of the region; all of them where images or a stock
+ * have effects elsewhere. */
+static tn_status open_near(hanging *h, const tn_site_choices *c, tn_standing *plan, const tn_cell_box *region,
+                           tn_error *error)
+{
+    const tn_kit_model_record *model = c->rules->space;
+    bool anywhere = model->symmetry != TN_SYMMETRY_NONE || model->stock_count > 0;
+    plan->open_count = 0;
+    for (size_t i = 0; i < h->site_count; i++) {
+        const tn_open_site *site = &h->sites[i];
+        tn_cell_box turned = tn_cell_box_of(c->symbols[site->symbol].around, site->frame.heading);
+        tn_cell_box around = tn_box_from(&turned, site->frame.at);
+        bool near = c->symbols[site->symbol].count > 0;
+        for (int k = 0; k < 3 && near && !anywhere; k++)
+            near = around.low[k] < region->high[k] && region->low[k] < around.high[k];
+        if (!near)
+            continue;
+        if (!tn_array_reserve(&plan->open, &plan->open_capacity, plan->open_count, 1, sizeof *plan->open))
+            return tn_fail_memory(error);
+        plan->open[plan->open_count++] = *site;
+    }
+    return TN_OK;
+}
+
+/* Keeps those puts of the plan that are held, each behind one that it hangs on, and opens the connectors that are near
+ * the region: what was taken away lay there. The region grows by what falls. */
+static tn_status hang_keep(hanging *h, const tn_site_choices *c, tn_standing *plan, tn_cell_box *region,
+                           tn_error *error)
+{
+    size_t count, old = plan->put_count;
+    if (!make_sockets(h, c, plan) || !make_room(h, old + 1))
+        return tn_fail_memory(error);
+    memset(h->held, 0, (old + 1) * sizeof *h->held);
+    tn_status status = reach(h, c, plan, &count, error);
+    if (status != TN_OK)
+        return status;
+    for (size_t i = 0; i < old; i++) {
+        tn_cell_box turned = tn_cell_box_of(c->choices[plan->puts[i].choice].around, plan->puts[i].at.heading);
+        tn_cell_box box = tn_box_from(&turned, plan->puts[i].at.at);
+        if (!h->held[i])
+            tn_cell_box_widen(region, &box);
+    }
+    if (!tn_array_reserve(&plan->puts, &plan->put_capacity, old, count, sizeof *plan->puts))
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < count; i++)
+        plan->puts[old + i] = plan->puts[h->order[i]];
+    memmove(plan->puts, &plan->puts[old], count * sizeof *plan->puts);
+    plan->put_count = count;
+    return open_near(h, c, plan, region, error);
+}
+
+static void hang_clear(hanging *h)
+{
+    free(h->sockets);
+    tn_hash_clear(&h->socket_index);
+    free(h->order);
+    free(h->held);
+    free(h->sites);
+    *h = (hanging){0};
+}
+
+/* ---- Annealing: again and again some neighbouring parts are taken away, with all that hangs on them alone, and the
+ * model is grown again there, at random. The new model is kept unless it is worse than the one of some rounds before
+ * (late acceptance hill climbing: Burke and Bykov, 2017), so that no temperature has to be found. A few chains go their
+ * ways at once, each with random numbers of its own; their number does not depend on that of the threads */
 
 enum { CHAINS = 4, HISTORY = 64, PIECE = 256, FITTING_MAX = 1024 };
 
 typedef struct chain {
     tn_standing plan, kept, best; /* plan: what is tried; kept: what is gone on from */
-    tn_hang hang;
+    hanging hang;
     tn_model_score score, best_score;
     tn_model_score history[HISTORY];
     uint64_t stream, drawn, round;
@@ -95,7 +292,7 @@ static tn_status take_away(chain *c, const tn_world *world, tn_cell_box *region,
             tn_cell_box_widen(&taken, &box);
     }
     *region = taken;
-    return tn_hang_keep(&c->hang, world->choices, &c->plan, region, error);
+    return hang_keep(&c->hang, world->choices, &c->plan, region, error);
 }
 
 /* One of what fits at a site: mostly of the first alternative that does, in a random position. */
@@ -216,7 +413,7 @@ tn_status tn_place_search_anneal(tn_place_search_run *run)
         tn_standing_clear(&a.chains[i].plan);
         tn_standing_clear(&a.chains[i].kept);
         tn_standing_clear(&a.chains[i].best);
-        tn_hang_clear(&a.chains[i].hang);
+        hang_clear(&a.chains[i].hang);
     }
     return status;
 }

@@ -14,7 +14,7 @@ typedef struct tn_kind_of_part {
     tn_cell_box *boxes[4]; /* [upright heading]: record->box_count boxes from the part's place */
     tn_cell_box all[4];    /* around them */
     uint32_t shape[TN_TURNS];
-    uint32_t mirrored[2]; /* its image at x = 0 (at z = 0) where it is not turned; TN_TURNS: is no such part */
+    uint32_t mirrored[2]; /* its image at x = 0 (at z = 0) if it is not turned; TN_TURNS: is no such part */
     uint64_t most;        /* that the stock has; UINT64_MAX: any number */
 } tn_kind_of_part;
 
@@ -64,8 +64,8 @@ typedef struct tn_site_choices {
     size_t known_size;
 } tn_site_choices;
 
-/* Works the choices out. TN_INVALID (E1334) where the rules are not those of a kit, or a part lies beside its mirror
- * image; TN_LIMIT (E1313) where there are more than 2^22. Clear it in any case. */
+/* Works the choices out. TN_INVALID (E1334) if the rules are not those of a kit, or a part lies beside its mirror
+ * image; TN_LIMIT (E1313) if there are more than 2^22. Clear it in any case. */
 tn_status tn_site_choices_make(const tn_place_rules *rules, tn_site_choices *choices, tn_error *error);
 void tn_site_choices_clear(tn_site_choices *choices);
 
@@ -101,5 +101,14 @@ static inline tn_cell_box tn_box_from(const tn_cell_box *box, const int32_t at[3
     }
     return moved;
 }
+
+/* The parts of a kit as a search needs them: their boxes for each heading, and in which headings and images they look
+ * the same. */
+
+/* Fills choices->kinds and choices->boxes from the records of the rules' module. TN_MEMORY or TN_OK. */
+tn_status tn_kinds_make(tn_site_choices *choices, tn_error *error);
+
+/* The part in an image at x = 0 (axis 0) or z = 0 (axis 1), whose mirrored[axis] is below 4. */
+tn_frame tn_kind_mirror(const tn_kind_of_part *kind, const tn_frame *frame, int axis);
 
 #endif

@@ -22,14 +22,12 @@ typedef struct tn_place_search_run {
     tn_error *error;
 } tn_place_search_run;
 
-tn_status tn_place_search_beam(tn_place_search_run *run);
 tn_status tn_place_search_anneal(tn_place_search_run *run);
-tn_status tn_place_search_exact(tn_place_search_run *run);
 
 /* Keeps a plan that is better than the best. */
 tn_status tn_place_search_keep(tn_place_search_run *run, const tn_standing *plan, const tn_model_score *score);
 
-/* TN_LIMIT where so many models are more than may be looked at; TN_STOPPED where nobody waits any more. */
+/* TN_LIMIT if so many models are more than may be looked at; TN_STOPPED if nobody waits any more. */
 tn_status tn_place_search_check(tn_place_search_run *run, uint64_t looked_at, double done, double total);
 
 #endif

@@ -38,7 +38,7 @@ tn_model_score tn_score_terms(const tn_module *module, const tn_kit_model_record
 /* The value of the objective, as far as the numbers of parts tell it; only where it rises. */
 double tn_score_value(tn_scorer *scorer, const tn_world *world);
 
-/* Below 0 where a is better; not-a-number is worst. */
+/* Below 0 if a is better; not-a-number is worst. */
 int tn_score_compare(const tn_model_score *a, const tn_model_score *b);
 
 #endif

@@ -18,13 +18,13 @@ static inline bool tn_place_needs_search(const tn_place_rules *rules)
 }
 
 /* Searches as the model says, and gives the best model found, the first of equals. Of the options: seed, part_limit,
- * search_limit, threads and watch. TN_LIMIT (E1313) where the search passes a limit, TN_STOPPED where the watch ends
+ * search_limit, threads and watch. TN_LIMIT (E1313) if the search passes a limit, TN_STOPPED if the watch ends
  * it: the model is the best until then. The model is the caller's to clear in any case. */
 tn_status tn_place_search(const tn_place_rules *rules, const tn_place_options *options, tn_placed_model *model,
                           tn_error *error);
 
 /* Places a model as its rules say: by a search where it needs one, else as tn_place_derive does. TN_INVALID (E1314)
- * where no part is placed; else what these give. *fault is empty after a search. */
+ * if no part is placed; else what these give. *fault is empty after a search. */
 tn_status tn_place_run(const tn_place_rules *rules, const tn_place_options *options, tn_placed_model *model,
                        tn_place_fault *fault, tn_error *error);
 

@@ -6,7 +6,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/base/random.h"
-#include "runtime/place/search/kinds.h"
+#include "runtime/place/search/choices.h"
 
 enum { DRAWN_MAX = 64, PARTS_MAX = 1000000 };
 

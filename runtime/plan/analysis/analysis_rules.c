@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "runtime/base/array.h"
+#include "runtime/base/hash_table.h"
 #include "runtime/base/random.h"
 #include "runtime/plan/analysis/analysis_data.h"
 
@@ -34,22 +35,34 @@ static uint64_t hash_of(const tn_dfa *dfa)
     return hash;
 }
 
-/* A rule past the limit has a meaning of its own. */
-static void add_meaning(const tn_plan_analysis *analysis, meanings *m, size_t *table, size_t size, size_t rule)
+typedef struct wanted_meaning {
+    const tn_plan_analysis *analysis;
+    const meanings *meanings;
+    const tn_dfa *dfa;
+} wanted_meaning;
+
+static bool is_wanted(const void *context, uint32_t meaning)
 {
-    const tn_dfa *dfa = analysis->rules[rule].dfa;
-    size_t slot = dfa ? (size_t)hash_of(dfa) & (size - 1) : 0, found = m->count;
-    while (dfa && table[slot] && !tn_dfa_equal(analysis->rules[m->first[table[slot] - 1]].dfa, dfa))
-        slot = (slot + 1) & (size - 1);
-    if (dfa && table[slot])
-        found = table[slot] - 1;
-    else
+    const wanted_meaning *w = context;
+    return tn_dfa_equal(w->analysis->rules[w->meanings->first[meaning]].dfa, w->dfa);
+}
+
+/* A rule past the limit has a meaning of its own, of a number that nothing finds. */
+static tn_status add_meaning(const tn_plan_analysis *analysis, meanings *m, tn_hash_table *table, size_t rule,
+                             tn_error *error)
+{
+    wanted_meaning wanted = {analysis, m, analysis->rules[rule].dfa};
+    uint32_t found = (uint32_t)m->count;
+    tn_status status =
+        wanted.dfa ? tn_hash_enter(table, hash_of(wanted.dfa), is_wanted, &wanted, &found, error) : TN_OK;
+    if (status != TN_OK)
+        return status;
+    if (found == m->count)
         m->first[m->count++] = rule;
-    if (dfa)
-        table[slot] = found + 1;
     m->of[rule] = found;
     m->own[found] |= analysis->rules[rule].own;
     m->named[found] |= analysis->rules[rule].named;
+    return TN_OK;
 }
 
 static void clear_meanings(meanings *m)
@@ -62,19 +75,17 @@ static void clear_meanings(meanings *m)
 
 static tn_status find_meanings(const tn_plan_analysis *analysis, meanings *m, tn_error *error)
 {
-    size_t n = analysis->rule_count, size = 2;
-    while (size < 2 * n)
-        size *= 2;
-    size_t *table = calloc(size, sizeof *table);
+    size_t n = analysis->rule_count;
+    tn_hash_table index = {0};
     *m = (meanings){.of = calloc(n + 1, sizeof *m->of),
                     .first = calloc(n + 1, sizeof *m->first),
                     .own = calloc(n + 1, sizeof *m->own),
                     .named = calloc(n + 1, sizeof *m->named)};
-    bool there = table && m->of && m->first && m->own && m->named;
-    for (size_t r = 0; there && r < n; r++)
-        add_meaning(analysis, m, table, size, r);
-    free(table);
-    return there ? TN_OK : tn_fail_memory(error);
+    tn_status status = m->of && m->first && m->own && m->named ? TN_OK : tn_fail_memory(error);
+    for (size_t r = 0; r < n && status == TN_OK; r++)
+        status = add_meaning(analysis, m, &index, r, error);
+    tn_hash_clear(&index);
+    return status;
 }
 
 /* ---- probing */

@@ -1,4 +1,4 @@
-/* Keeps answers by a hash of what they depend on: a table with open addressing. */
+/* Keeps answers by a hash of what they depend on. */
 #include "runtime/plan/library/memory.h"
 
 #include <pthread.h>
@@ -7,20 +7,22 @@
 #define XXH_STATIC_LINKING_ONLY /* for a state that needs no allocation */
 #include <xxhash.h>
 
+#include "runtime/base/array.h"
+#include "runtime/base/hash_table.h"
+
 #define BYTES_DEFAULT ((size_t)16 << 20)
-#define SLOTS_FIRST 64u
 
 typedef struct tn_kept_answer {
     tn_memory_key key;
-    void *answer; /* NULL: the slot is free */
+    void *answer;
     size_t size;
 } tn_kept_answer;
 
 struct tn_plan_memory {
     pthread_mutex_t lock;
-    tn_kept_answer *slots;
-    size_t slot_count; /* a power of two */
-    size_t count, bytes, most;
+    tn_kept_answer *kept;
+    size_t count, capacity, bytes, most;
+    tn_hash_table index;
     size_t found, looked;
 };
 
@@ -60,11 +62,12 @@ tn_plan_memory *tn_plan_memory_new(size_t bytes)
 
 static void forget_all(tn_plan_memory *memory)
 {
-    for (size_t i = 0; i < memory->slot_count; i++)
-        free(memory->slots[i].answer);
-    free(memory->slots);
-    memory->slots = NULL;
-    memory->slot_count = memory->count = memory->bytes = 0;
+    for (size_t i = 0; i < memory->count; i++)
+        free(memory->kept[i].answer);
+    free(memory->kept);
+    tn_hash_clear(&memory->index);
+    memory->kept = NULL;
+    memory->count = memory->capacity = memory->bytes = 0;
 }
 
 void tn_plan_memory_free(tn_plan_memory *memory)
@@ -76,43 +79,27 @@ void tn_plan_memory_free(tn_plan_memory *memory)
     free(memory);
 }
 
-/* The slot that has the key, or the free one where it belongs. There is a free one. */
-static tn_kept_answer *slot_of(tn_kept_answer *slots, size_t slot_count, tn_memory_key key)
-{
-    size_t at = (size_t)key.low & (slot_count - 1);
-    while (slots[at].answer && (slots[at].key.low != key.low || slots[at].key.high != key.high))
-        at = (at + 1) & (slot_count - 1);
-    return &slots[at];
-}
+typedef struct wanted_answer {
+    const tn_plan_memory *memory;
+    tn_memory_key key;
+} wanted_answer;
 
-/* Sees to it that at most half of the slots are taken when there is one answer more. */
-static bool make_room(tn_plan_memory *memory)
+static bool is_wanted(const void *context, uint32_t number)
 {
-    if (2 * (memory->count + 1) <= memory->slot_count)
-        return true;
-    size_t more = memory->slot_count ? 2 * memory->slot_count : SLOTS_FIRST;
-    tn_kept_answer *slots = calloc(more, sizeof *slots);
-    if (!slots)
-        return false;
-    for (size_t i = 0; i < memory->slot_count; i++)
-        if (memory->slots[i].answer)
-            *slot_of(slots, more, memory->slots[i].key) = memory->slots[i];
-    free(memory->slots);
-    memory->slots = slots;
-    memory->slot_count = more;
-    return true;
+    const wanted_answer *w = context;
+    const tn_memory_key *key = &w->memory->kept[number].key;
+    return key->low == w->key.low && key->high == w->key.high;
 }
 
 bool tn_plan_memory_find(tn_plan_memory *memory, tn_memory_key key, void *answer, size_t size)
 {
     bool found = false;
     pthread_mutex_lock(&memory->lock);
-    if (memory->slot_count) {
-        const tn_kept_answer *slot = slot_of(memory->slots, memory->slot_count, key);
-        found = slot->answer && slot->size == size;
-        if (found && size)
-            memcpy(answer, slot->answer, size);
-    }
+    wanted_answer wanted = {memory, key};
+    uint32_t number = tn_hash_find(&memory->index, key.low, is_wanted, &wanted);
+    found = number != TN_HASH_NONE && memory->kept[number].size == size;
+    if (found && size)
+        memcpy(answer, memory->kept[number].answer, size);
     memory->looked++;
     memory->found += found;
     pthread_mutex_unlock(&memory->lock);
@@ -129,11 +116,11 @@ void tn_plan_memory_keep(tn_plan_memory *memory, tn_memory_key key, const void *
     pthread_mutex_lock(&memory->lock);
     if (memory->bytes + bytes > memory->most)
         forget_all(memory);
-    bool room = make_room(memory);
-    tn_kept_answer *slot = room ? slot_of(memory->slots, memory->slot_count, key) : NULL;
-    if (slot && !slot->answer) {
-        *slot = (tn_kept_answer){key, copy, size};
-        memory->count++;
+    wanted_answer wanted = {memory, key};
+    uint32_t number = (uint32_t)memory->count;
+    if (tn_array_reserve(&memory->kept, &memory->capacity, memory->count, 1, sizeof *memory->kept) &&
+        tn_hash_enter(&memory->index, key.low, is_wanted, &wanted, &number, NULL) == TN_OK && number == memory->count) {
+        memory->kept[memory->count++] = (tn_kept_answer){key, copy, size};
         memory->bytes += bytes;
         copy = NULL;
     }

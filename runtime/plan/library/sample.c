@@ -9,6 +9,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/base/error.h"
+#include "runtime/base/hash_table.h"
 #include "runtime/base/integers.h"
 #include "runtime/base/random.h"
 #include "runtime/plan/library/library_data.h"
@@ -20,25 +21,20 @@ typedef struct tn_drawn {
     size_t limbs;
     unsigned spare;    /* bits of the highest limb that the bound does not have */
     mp_limb_t *values; /* [count][limbs], in the order drawn */
-    size_t *slots;     /* number + 1; 0 is free */
-    size_t count, capacity, room;
+    size_t count, room;
+    tn_hash_table table;
     mp_limb_t *candidate; /* [limbs] */
 } tn_drawn;
-
-uint64_t tn_drawn_hash(const tn_drawn *drawn); /* of the candidate */
 
 /* ---- numbers below a bound, without drawing one twice */
 
 /* count: how many there will be at least. The bound is above 0, and borrowed. */
 static bool drawn_make(tn_drawn *drawn, const mpz_t bound, size_t count)
 {
-    *drawn = (tn_drawn){.bound = bound, .limbs = mpz_size(bound), .capacity = 64};
+    *drawn = (tn_drawn){.bound = bound, .limbs = mpz_size(bound)};
     drawn->spare = (unsigned)(drawn->limbs * 64 - mpz_sizeinbase(bound, 2));
-    while (drawn->capacity < 2 * count)
-        drawn->capacity *= 2;
-    drawn->slots = calloc(drawn->capacity, sizeof *drawn->slots);
     drawn->candidate = malloc((drawn->limbs + 1) * sizeof *drawn->candidate);
-    return drawn->slots && drawn->candidate &&
+    return drawn->candidate && tn_hash_reserve(&drawn->table, count, NULL) == TN_OK &&
            tn_array_reserve(&drawn->values, &drawn->room, 0, tn_size_of(count, drawn->limbs) + 1,
                             sizeof *drawn->values);
 }
@@ -46,7 +42,7 @@ static bool drawn_make(tn_drawn *drawn, const mpz_t bound, size_t count)
 static void drawn_clear(tn_drawn *drawn)
 {
     free(drawn->values);
-    free(drawn->slots);
+    tn_hash_clear(&drawn->table);
     free(drawn->candidate);
     *drawn = (tn_drawn){0};
 }
@@ -61,52 +57,36 @@ static bool drawn_try(tn_drawn *drawn, uint64_t seed, uint64_t stream, uint64_t 
     return mpn_cmp(drawn->candidate, mpz_limbs_read(drawn->bound), (mp_size_t)drawn->limbs) < 0;
 }
 
-static uint64_t hash_of(const tn_drawn *drawn, const mp_limb_t *value)
+static uint64_t drawn_hash(const tn_drawn *drawn)
 {
     uint64_t hash = drawn->limbs;
     for (size_t i = 0; i < drawn->limbs; i++)
-        hash = tn_mix64(hash ^ value[i]);
+        hash = tn_mix64(hash ^ drawn->candidate[i]);
     return hash;
 }
 
-uint64_t tn_drawn_hash(const tn_drawn *drawn)
+static bool is_candidate(const void *context, uint32_t number)
 {
-    return hash_of(drawn, drawn->candidate);
-}
-
-static bool grow(tn_drawn *drawn)
-{
-    size_t capacity = drawn->capacity * 2;
-    size_t *slots = calloc(capacity, sizeof *slots);
-    if (!slots)
-        return false;
-    for (size_t i = 0; i < drawn->count; i++) {
-        size_t at = hash_of(drawn, drawn->values + i * drawn->limbs) & (capacity - 1);
-        while (slots[at])
-            at = (at + 1) & (capacity - 1);
-        slots[at] = i + 1;
-    }
-    free(drawn->slots);
-    drawn->slots = slots;
-    drawn->capacity = capacity;
-    return true;
+    const tn_drawn *drawn = context;
+    return memcmp(drawn->values + number * drawn->limbs, drawn->candidate, drawn->limbs * sizeof *drawn->candidate) ==
+           0;
 }
 
 /* Adds the candidate. *fresh: it was not there. TN_MEMORY. */
 static tn_status drawn_add(tn_drawn *drawn, bool *fresh, tn_error *error)
 {
-    size_t used = drawn->count * drawn->limbs, bytes = drawn->limbs * sizeof *drawn->candidate;
-    if ((2 * drawn->count >= drawn->capacity && !grow(drawn)) ||
-        !tn_array_reserve(&drawn->values, &drawn->room, used, drawn->limbs, sizeof *drawn->values))
+    size_t used = drawn->count * drawn->limbs;
+    if (!tn_array_reserve(&drawn->values, &drawn->room, used, drawn->limbs, sizeof *drawn->values))
         return tn_fail_memory(error);
-    size_t at = tn_drawn_hash(drawn) & (drawn->capacity - 1);
-    *fresh = false;
-    for (; drawn->slots[at]; at = (at + 1) & (drawn->capacity - 1))
-        if (memcmp(drawn->values + (drawn->slots[at] - 1) * drawn->limbs, drawn->candidate, bytes) == 0)
-            return TN_OK;
-    *fresh = true;
-    memcpy(drawn->values + used, drawn->candidate, bytes);
-    drawn->slots[at] = ++drawn->count;
+    uint32_t number = (uint32_t)drawn->count;
+    tn_status status = tn_hash_enter(&drawn->table, drawn_hash(drawn), is_candidate, drawn, &number, error);
+    if (status != TN_OK)
+        return status;
+    *fresh = number == drawn->count;
+    if (*fresh) {
+        memcpy(drawn->values + used, drawn->candidate, drawn->limbs * sizeof *drawn->candidate);
+        drawn->count++;
+    }
     return TN_OK;
 }
 
@@ -172,7 +152,7 @@ static tn_status count_round(tn_drawing *c, uint64_t round, tn_error *error)
         bool fresh = false;
         status = look(c->watch, a, error);
         if (status == TN_OK && drawn_try(&drawn, d->seed, d->stream, a) &&
-            (c->rounds == 1 || tn_drawn_hash(&drawn) % c->rounds == round))
+            (c->rounds == 1 || drawn_hash(&drawn) % c->rounds == round))
             status = drawn_add(&drawn, &fresh, error);
         c->fresh[a / 64] |= (uint64_t)fresh << a % 64;
     }

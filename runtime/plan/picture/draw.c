@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "runtime/draw/canvas.h"
-#include "runtime/draw/paper.h"
+#include "runtime/draw/scales.h"
 #include "runtime/draw/type.h"
 #include "runtime/plan/picture/draw_parts.h"
 

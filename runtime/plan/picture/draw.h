@@ -28,7 +28,7 @@ typedef struct tn_draw_options {
     const char *number_name;  /* what the numbers are: "rank", "line" */
     const char *const *notes; /* how it was made, a line each */
     size_t note_count;
-    const char *paper; /* see paper.h; NULL: the smallest of three that holds all */
+    const char *paper; /* see scales.h; NULL: the smallest of three that holds all */
     uint32_t scale;    /* 1:scale; 0: the largest usual one that fits */
     uint32_t columns;  /* plans in a row; 0: as many as fit */
     uint32_t dpi;      /* of a PNG; 0: 150 */

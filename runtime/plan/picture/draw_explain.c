@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "runtime/draw/canvas.h"
-#include "runtime/draw/paper.h"
+#include "runtime/draw/scales.h"
 #include "runtime/draw/type.h"
 #include "runtime/plan/picture/draw_parts.h"
 

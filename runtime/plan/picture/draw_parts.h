@@ -3,7 +3,7 @@
 #ifndef TARTAN_PLAN_PICTURE_DRAW_PARTS_H
 #define TARTAN_PLAN_PICTURE_DRAW_PARTS_H
 
-#include "runtime/base/length_style.h"
+#include "runtime/base/length.h"
 #include "runtime/draw/paint.h"
 #include "runtime/plan/picture/draw.h"
 

@@ -9,7 +9,7 @@
 #include <strings.h>
 #include <unistd.h>
 
-#include "runtime/base/file_error.h"
+#include "runtime/base/file.h"
 #include "runtime/plan/text/database.h"
 #include "runtime/plan/text/pack.h"
 #include "runtime/plan/text/reader.h"

@@ -5,7 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "runtime/base/file_error.h"
+#include "runtime/base/file.h"
 #include "runtime/plan/text/reader.h"
 
 /* Read behind a stretch at once, for the end of its last line, and from then on at a time. */

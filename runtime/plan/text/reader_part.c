@@ -4,7 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "runtime/base/file_error.h"
+#include "runtime/base/file.h"
 #include "runtime/plan/text/reader.h"
 
 enum { LOOK_BYTES = 16 << 10 }; /* read at a time to find the end of a line */

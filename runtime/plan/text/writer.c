@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "runtime/base/bytes.h"
-#include "runtime/base/file_error.h"
-#include "runtime/base/part.h"
+#include "runtime/base/error.h"
+#include "runtime/base/file.h"
 #include "runtime/plan/text/field_columns.h"
 #include "runtime/plan/text/pack.h"
 

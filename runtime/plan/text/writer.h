@@ -3,7 +3,7 @@
 #define TARTAN_PLAN_TEXT_WRITER_H
 
 #include "runtime/base/file.h"
-#include "runtime/base/length_style.h"
+#include "runtime/base/length.h"
 #include "runtime/plan/text/compression.h"
 #include "runtime/plan/text/database.h"
 #include "runtime/plan/text/parquet.h"

@@ -4,7 +4,7 @@
 
 #include <cmocka.h>
 
-#include "runtime/base/length_style.h"
+#include "runtime/base/length.h"
 
 static void expect(const char *spelling, int64_t nanometres, const char *written)
 {

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "compiler/notation.h"
+#include "compiler/compile.h"
 
 static void test_rows(void **state)
 {

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "runtime/draw/axis.h"
+#include "runtime/draw/scales.h"
 
 static void steps_are_round(void **state)
 {

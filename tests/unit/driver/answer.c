@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "driver/program/answer.h"
+#include "driver/program/external.h"
 
 static tn_answer read_line(const char *line, size_t count)
 {

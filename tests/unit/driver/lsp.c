@@ -15,8 +15,8 @@
 #include <cmocka.h>
 #include <jansson.h>
 
-#include "lsp/lines.h"
-#include "lsp/lsp.h"
+#include "lsp/serve.h"
+#include "lsp/workspace.h"
 #include "runtime/base/file.h"
 
 /* ---- a session: messages are written to a file, then served */

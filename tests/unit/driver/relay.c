@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "driver/plan/relay.h"
+#include "driver/plan/sift.h"
 
 enum { THREADS = 6, CHUNKS = 3000, ROOM = 9, WAITING_BYTES = 200 };
 

@@ -2,7 +2,7 @@
  * keep their rim. */
 #include <math.h>
 
-#include "runtime/base/codes.h"
+#include "runtime/base/error.h"
 #include "runtime/geometry/measure.h"
 #include "runtime/mesh/openmesh.h"
 #include "tests/unit/field/support.h"

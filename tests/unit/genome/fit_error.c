@@ -8,9 +8,9 @@
 
 #include <cmocka.h>
 
-#include "runtime/genome/breeding/fit_error.h"
-#include "runtime/genome/breeding/lexicase.h"
-#include "runtime/numeric/numeric.h"
+#include "runtime/genome/breeding/problem.h"
+#include "runtime/genome/breeding/select.h"
+#include "runtime/math/elementary.h"
 
 static double cost(tn_fit_error measure, const double *wanted, const double *values, size_t count)
 {

@@ -1,8 +1,8 @@
 /* Position-independent mapping against a derivation that is a plain list of symbols, rewritten in place; and what is
  * told of it. */
 #include "runtime/base/random.h"
+#include "runtime/genome/mapping/genome.h"
 #include "runtime/genome/mapping/invert.h"
-#include "runtime/genome/mapping/span.h"
 #include "runtime/genome/mapping/tree.h"
 #include "tests/support/test_grammar.h"
 

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "runtime/geometry/crease.h"
+#include "runtime/geometry/edges.h"
 
 /* Three triangles in a row over the same two long sides: 0 1 4 and 2 3 4 with 1 2 4 between them, which is as thick at
  * 1 2 as is said. Points 2 and 3 are so high. */

@@ -14,7 +14,7 @@
 #include "runtime/base/bytes.h"
 #include "runtime/base/random.h"
 #include "runtime/growth/growth.h"
-#include "runtime/growth/model/turtle.h"
+#include "runtime/growth/model/system.h"
 #include "runtime/growth/study.h"
 #include "runtime/load.h"
 #include "runtime/mesh/openmesh.h"

@@ -8,9 +8,9 @@
 
 #include <cmocka.h>
 
-#include "runtime/numeric/numeric.h"
 #include "runtime/base/random.h"
 #include "runtime/growth/join/join.h"
+#include "runtime/math/elementary.h"
 
 enum { BRANCHES = 240, ITEMS = 2 * BRANCHES + 1 };
 

@@ -9,9 +9,9 @@
 
 #include <cmocka.h>
 
-#include "runtime/numeric/numeric.h"
 #include "runtime/growth/study.h"
 #include "runtime/load.h"
+#include "runtime/math/elementary.h"
 #include "runtime/mesh/openmesh.h"
 #include "runtime/module/builder.h"
 #include "tests/support/compile_file.h"

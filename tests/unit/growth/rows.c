@@ -9,9 +9,8 @@
 #include <cmocka.h>
 
 #include "runtime/base/random.h"
-#include "runtime/growth/join/stamp_lanes.h"
-#include "runtime/growth/pass/axes.h"
-#include "runtime/growth/pass/normals.h"
+#include "runtime/growth/join/stamp.h"
+#include "runtime/growth/pass/rows.h"
 
 static uint64_t draws;
 

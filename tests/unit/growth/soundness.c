@@ -13,6 +13,7 @@
 
 #include "runtime/base/random.h"
 #include "runtime/geometry/crossing.h"
+#include "runtime/growth/growth.h"
 #include "runtime/growth/soundness.h"
 #include "runtime/growth/study.h"
 #include "runtime/growth/surface.h"

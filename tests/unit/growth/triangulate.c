@@ -9,9 +9,9 @@
 
 #include <cmocka.h>
 
+#include "runtime/geometry/bit_tree.h"
 #include "runtime/geometry/corner_tree.h"
 #include "runtime/geometry/mesh.h"
-#include "runtime/numeric/bit_tree.h"
 
 /* One face with corners in the plane, tilted in space. */
 static void make_face(tn_mesh *mesh, const double (*corners)[2], uint32_t count)

@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "runtime/house/bare.h"
-#include "runtime/house/variant/variant.h"
+#include "runtime/house/count/listing.h"
 #include "tests/support/test_house.h"
 
 enum { FORMS = 300, PLANS = 6 };
@@ -79,13 +79,13 @@ static void check_cell(test_house *made, tn_bare_cells *bare, uint32_t cell, tal
     t->no_tile += may;
 }
 
-static void check_plan(test_house *made, tn_house_variants *houses, const tn_tray *trays, size_t length, tally *t)
+static void check_plan(test_house *made, tn_house_listing *houses, const tn_tray *trays, size_t length, tally *t)
 {
     tn_bare_cells bare;
     tn_house_counts counts;
     tn_error error = {0};
     tn_house_counts_init(&counts);
-    tn_status counted = tn_house_variants_count(houses, trays, length, &counts, &error);
+    tn_status counted = tn_house_listing_count(houses, trays, length, &counts, &error);
     tn_status status = tn_bare_find(&made->form, trays, length, &bare, &error);
     if (counted == TN_OK && status == TN_OK) {
         t->empty += mpz_sgn(counts.houses) == 0;
@@ -106,18 +106,18 @@ static void test_drawn(void **state)
     (void)state;
     for (int i = 0; i < FORMS; i++) {
         test_house made;
-        tn_house_variants *houses;
+        tn_house_listing *houses;
         tn_error error = {0};
         char text[4096];
         write_form(&drawing, text, sizeof text);
         test_house_compile(&made, text);
-        assert_int_equal(tn_house_variants_new(&made.form, made.all, 200000, &houses, &error), TN_OK);
+        assert_int_equal(tn_house_listing_new(&made.form, made.all, 200000, &houses, &error), TN_OK);
         for (uint32_t k = 0; k < PLANS; k++) {
             const tn_tray trays[] = {(uint32_t)(k * 7 + (uint32_t)i) % made.schema->tray_count,
                                      (k * 3 + 1) % made.schema->tray_count};
             check_plan(&made, houses, trays, 1 + k % 2, &t);
         }
-        tn_house_variants_free(houses);
+        tn_house_listing_free(houses);
         test_house_clear(&made);
     }
     print_message("%zu plans without a house, %zu explained: %zu cells without a function, %zu without a tile\n",

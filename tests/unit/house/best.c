@@ -29,7 +29,7 @@ typedef struct check {
     const test_house *made;
     const tn_house_library_record *record;
     tn_library *plans;
-    tn_house_variants *variants;
+    tn_house_listing *variants;
     tn_house_rules *rules;
     tn_house_weights *weights[MEASURES];
     tn_house_measures measures;
@@ -97,7 +97,7 @@ static void list_houses(check *c)
     tn_library_kept(c->plans, TN_ALL_LENGTHS, to);
     assert_int_equal(tn_cursor_new(c->plans, from, to, &cursor, &error), TN_OK);
     while (c->count < c->most && tn_cursor_next(cursor, &trays, &length))
-        assert_int_equal(tn_house_variants_each(c->variants, trays, length, from, list_house, c, &error), TN_OK);
+        assert_int_equal(tn_house_listing_each(c->variants, trays, length, from, list_house, c, &error), TN_OK);
     tn_cursor_free(cursor);
     mpz_clears(from, to, NULL);
 }
@@ -160,7 +160,7 @@ static void check_least(check *c, tn_houses *houses)
         assert_int_equal(mpz_cmp_ui(count, same_from(c, at)), 0);
         at += same_from(c, at);
         if (c->given < WANTED)
-            assert_int_equal(tn_houses_point_each(houses, i, c->variants, expect_next, c, &error), TN_OK);
+            assert_int_equal(tn_houses_point_each(houses, i, expect_next, c, &error), TN_OK);
     }
     assert_int_equal(c->given, c->count < WANTED ? c->count : WANTED);
     mpz_clear(count);
@@ -190,8 +190,7 @@ static void check_front(check *c, tn_houses *houses)
         assert_true(point < tn_houses_points(houses));
         tn_houses_point(houses, point, values, count);
         assert_int_equal(mpz_cmp_ui(count, same_from(c, i)), 0);
-        assert_int_equal(tn_houses_point_each(houses, point, c->variants, expect_first, &c->order[i]->line, &error),
-                         TN_OK);
+        assert_int_equal(tn_houses_point_each(houses, point, expect_first, &c->order[i]->line, &error), TN_OK);
         point++;
     }
     assert_int_equal(point, tn_houses_points(houses));
@@ -411,7 +410,7 @@ static size_t check_library(const test_house *made, const tn_house_library_recor
     c->most = houses_most;
     c->measures.count = MEASURES;
     assert_int_equal(tn_library_new(made->schema, record->plans, &options, &c->plans, &error), TN_OK);
-    assert_int_equal(tn_house_variants_new(&made->form, record, 0, &c->variants, &error), TN_OK);
+    assert_int_equal(tn_house_listing_new(&made->form, record, 0, &c->variants, &error), TN_OK);
     assert_int_equal(tn_house_rules_new(&made->form, 0, &c->rules, &error), TN_OK);
     for (uint32_t k = 0; k < MEASURES; k++) {
         tn_house_measured measure = tn_house_measured_of(made->form.module, measures[k]);
@@ -431,7 +430,7 @@ static size_t check_library(const test_house *made, const tn_house_library_recor
     for (uint32_t k = 0; k < MEASURES; k++)
         tn_house_weights_free(c->weights[k]);
     tn_house_rules_free(c->rules);
-    tn_house_variants_free(c->variants);
+    tn_house_listing_free(c->variants);
     tn_library_free(c->plans);
     free(c);
     return count;

@@ -12,8 +12,8 @@
 #include <cmocka.h>
 
 #include "runtime/house/count/data.h"
+#include "runtime/house/count/listing.h"
 #include "runtime/house/rank/rank.h"
-#include "runtime/house/variant/variant.h"
 #include "tests/support/drawn_house.h"
 #include "tests/support/share.h"
 #include "tests/support/test_house.h"
@@ -25,7 +25,7 @@ typedef struct check {
     const tn_house_library_record *record;
     tn_library *plans;
     tn_houses *houses;
-    tn_house_variants *variants;
+    tn_house_listing *listing;
     tn_house_ranks *ranks;
     mpz_t lengths[LENGTH_MAX + 1], all, faced, rank, variant;
     tn_houses_projected with; /* plans, sections and functions that have a house, plan by plan */
@@ -73,7 +73,7 @@ static void check_changed(check *c, tn_plan_houses *plan, tn_house *house, size_
     for (size_t i = 0; i < house->cell_count; i++)
         house->cells[i].variant = 0;
     house->faces[at].kind = kinds[count - 1] == was ? kinds[0] : kinds[count - 1];
-    tn_status status = tn_house_variants_rank(c->variants, house, number, &error);
+    tn_status status = tn_house_listing_number(c->listing, house, number, &error);
     assert_int_equal(tn_plan_houses_number(plan, house, c->rank, &error), status);
     if (status == TN_OK)
         assert_int_equal(mpz_cmp(c->rank, number), 0);
@@ -87,7 +87,7 @@ static void check_house(check *c, tn_plan_houses *plan, const tn_tray *trays, ui
     tn_house one, other;
     tn_error error = {0};
     assert_int_equal(tn_plan_houses_at(plan, variant, &one, &error), TN_OK);
-    assert_int_equal(tn_house_variants_at(c->variants, trays, length, variant, &other, &error), TN_OK);
+    assert_int_equal(tn_house_listing_at(c->listing, trays, length, variant, &other, &error), TN_OK);
     check_same(&one, &other);
     check_number(c, plan, &one, variant);
     if (one.face_count > 0)
@@ -96,9 +96,62 @@ static void check_house(check *c, tn_plan_houses *plan, const tn_tray *trays, ui
     tn_house_clear(&other);
 }
 
-/* Houses on the plan from the first to the last; there is none behind it. */
-static void check_houses(check *c, const tn_tray *trays, uint32_t length, const mpz_t houses)
+/* The houses from a number on come in the same order as when they are gone through. */
+enum { LISTED = 30 };
+typedef struct listed {
+    tn_house houses[LISTED];
+    size_t count, compared;
+} listed;
+
+static tn_status collect(void *context, const tn_house *house, bool *stop, tn_error *error)
 {
+    listed *l = context;
+    tn_status status = tn_house_copy(house, &l->houses[l->count++], error);
+    *stop = l->count == LISTED;
+    return status;
+}
+
+static tn_status compare_next(void *context, const tn_house *house, bool *stop, tn_error *error)
+{
+    listed *l = context;
+    (void)error;
+    assert_true(l->compared < l->count);
+    check_same(house, &l->houses[l->compared++]);
+    *stop = l->compared == LISTED;
+    return TN_OK;
+}
+
+static void check_order(check *c, tn_plan_houses *plan, const tn_tray *trays, uint32_t length, const mpz_t from)
+{
+    listed l = {.count = 0};
+    tn_error error = {0};
+    assert_int_equal(tn_house_listing_each(c->listing, trays, length, from, collect, &l, &error), TN_OK);
+    assert_int_equal(tn_plan_houses_each(plan, from, compare_next, &l, &error), TN_OK);
+    assert_int_equal(l.compared, l.count);
+    for (size_t i = 0; i < l.count; i++)
+        tn_house_clear(&l.houses[i]);
+}
+
+/* How many there are, also without tiles, if these are few. */
+static void check_faced(tn_plan_houses *plan, const tn_house_counts *counts)
+{
+    uint64_t faced;
+    bool known;
+    tn_error error = {0};
+    mpz_t houses;
+    mpz_init(houses);
+    assert_int_equal(tn_plan_houses_count(plan, houses, &error), TN_OK);
+    assert_int_equal(mpz_cmp(houses, counts->houses), 0);
+    assert_int_equal(tn_plan_houses_faced(plan, 500, &faced, &known, &error), TN_OK);
+    assert_int_equal(known, counts->faced <= 500);
+    assert_true(!known || faced == counts->faced);
+    mpz_clear(houses);
+}
+
+/* Houses on the plan from the first to the last; there is none behind it. */
+static void check_houses(check *c, const tn_tray *trays, uint32_t length, const tn_house_counts *counts)
+{
+    mpz_srcptr houses = counts->houses;
     enum { PARTS = 3 };
     tn_house house;
     tn_error error = {0};
@@ -109,7 +162,10 @@ static void check_houses(check *c, const tn_tray *trays, uint32_t length, const 
         mpz_mul_ui(c->variant, c->variant, part);
         mpz_fdiv_q_ui(c->variant, c->variant, PARTS);
         check_house(c, plan, trays, length, c->variant);
+        if (part % 2 == 0)
+            check_order(c, plan, trays, length, c->variant);
     }
+    check_faced(plan, counts);
     assert_int_equal(tn_plan_houses_at(plan, houses, &house, &error), TN_INVALID);
     assert_int_equal(error.code, E_NO_VARIANT);
     tn_house_clear(&house);
@@ -155,33 +211,41 @@ static void check_ranks(check *c, const tn_tray *trays, uint32_t length, const m
     }
 }
 
+/* The sections of a plan, and all that they have. */
+typedef struct section_sum {
+    check *c;
+    tn_house_counts counts;
+} section_sum;
+
 static tn_status add_section(void *context, const uint32_t *shapes, const tn_house_counts *counts, tn_error *error)
 {
-    check *c = context;
+    section_sum *sum = context;
+    check *c = sum->c;
     (void)shapes;
     (void)error;
     mpz_add_ui(c->with.sections, c->with.sections, 1);
     mpz_add_ui(c->with.functions, c->with.functions, counts->zoned);
+    sum->counts.faced += counts->faced;
+    mpz_add(sum->counts.houses, sum->counts.houses, counts->houses);
     return TN_OK;
 }
 
 static void check_plan(check *c, const tn_tray *trays, uint32_t length, bool ranks)
 {
     c->houses->many_slices = ++c->checked % 2 == 0 ? UINT32_MAX : 0; /* by whole steps, and by stages */
-    tn_house_counts counts;
+    section_sum sum = {.c = c};
     tn_error error = {0};
-    tn_house_counts_init(&counts);
-    assert_int_equal(tn_house_variants_count(c->variants, trays, length, &counts, &error), TN_OK);
+    tn_house_counts_init(&sum.counts);
+    assert_int_equal(tn_house_listing_sections(c->listing, trays, length, add_section, &sum, &error), TN_OK);
     if (ranks) {
-        check_ranks(c, trays, length, counts.houses);
-        check_houses(c, trays, length, counts.houses);
+        check_ranks(c, trays, length, sum.counts.houses);
+        check_houses(c, trays, length, &sum.counts);
     }
-    mpz_add(c->all, c->all, counts.houses);
-    mpz_add(c->lengths[length], c->lengths[length], counts.houses);
-    mpz_add_ui(c->faced, c->faced, counts.faced);
-    mpz_add_ui(c->with.plans, c->with.plans, mpz_sgn(counts.houses) > 0);
-    assert_int_equal(tn_house_variants_sections(c->variants, trays, length, add_section, c, &error), TN_OK);
-    tn_house_counts_clear(&counts);
+    mpz_add(c->all, c->all, sum.counts.houses);
+    mpz_add(c->lengths[length], c->lengths[length], sum.counts.houses);
+    mpz_add_ui(c->faced, c->faced, sum.counts.faced);
+    mpz_add_ui(c->with.plans, c->with.plans, mpz_sgn(sum.counts.houses) > 0);
+    tn_house_counts_clear(&sum.counts);
 }
 
 static void check_numbers(check *c)
@@ -292,7 +356,7 @@ static void check_measure(check *c, uint32_t measure, const tn_tray *only, uint3
     assert_int_equal(tn_cursor_new(c->plans, from, c->rank, &cursor, &error), TN_OK);
     while (tn_cursor_next(cursor, &trays, &length))
         if (!only || (length == only_length && memcmp(trays, only, length * sizeof *trays) == 0))
-            assert_int_equal(tn_house_variants_each(c->variants, trays, length, from, tally_house, &t, &error), TN_OK);
+            assert_int_equal(tn_house_listing_each(c->listing, trays, length, from, tally_house, &t, &error), TN_OK);
     tn_cursor_free(cursor);
     assert_int_equal(tn_house_weights_new(&c->made->form, t.measure, &weights, &error), TN_OK);
     tn_house_measures measures = {.count = 1, .of = {weights}};
@@ -355,13 +419,13 @@ static uint64_t check_library(const test_house *made, const tn_house_library_rec
     for (uint32_t k = 0; k <= LENGTH_MAX; k++)
         mpz_init(c.lengths[k]);
     mpz_inits(c.all, c.faced, c.rank, c.variant, NULL);
-    assert_int_equal(tn_house_variants_new(&made->form, record, 0, &c.variants, &error), TN_OK);
+    assert_int_equal(tn_house_listing_new(&made->form, record, 0, &c.listing, &error), TN_OK);
     tn_status status = tn_houses_new(&made->form, record, c.plans, 0, &c.houses, &error);
     if (status != TN_OK)
         fprintf(stderr, "%s\n", error.message);
     assert_int_equal(status, TN_OK);
     assert_int_equal(tn_houses_recount(c.houses, 2000, &error), TN_OK);
-    assert_int_equal(tn_house_ranks_new(c.houses, c.variants, &c.ranks, &error), TN_OK);
+    assert_int_equal(tn_house_ranks_new(c.houses, &c.ranks, &error), TN_OK);
     static int libraries;
     if (++libraries % 2 == 0)
         forget_steps(c.houses);
@@ -384,7 +448,7 @@ static uint64_t check_library(const test_house *made, const tn_house_library_rec
     mpz_clears(c.all, c.faced, c.rank, c.variant, NULL);
     tn_house_ranks_free(c.ranks);
     tn_houses_free(c.houses);
-    tn_house_variants_free(c.variants);
+    tn_house_listing_free(c.listing);
     tn_library_free(c.plans);
     return houses;
 }
@@ -442,7 +506,7 @@ static uint64_t kept_one_by_one(const test_house *made)
     asking a = {.record = made->some};
     tn_error error = {0};
     tn_library *plans = plans_of(made, made->all);
-    tn_house_variants *variants;
+    tn_house_listing *listing;
     tn_cursor *cursor;
     const tn_tray *trays;
     uint32_t length;
@@ -450,12 +514,12 @@ static uint64_t kept_one_by_one(const test_house *made)
     mpz_inits(from, to, NULL);
     tn_library_kept(plans, TN_ALL_LENGTHS, to);
     assert_int_equal(tn_house_rules_new(&made->form, 0, &a.rules, &error), TN_OK);
-    assert_int_equal(tn_house_variants_new(&made->form, made->all, 0, &variants, &error), TN_OK);
+    assert_int_equal(tn_house_listing_new(&made->form, made->all, 0, &listing, &error), TN_OK);
     assert_int_equal(tn_cursor_new(plans, from, to, &cursor, &error), TN_OK);
     while (tn_cursor_next(cursor, &trays, &length))
-        assert_int_equal(tn_house_variants_each(variants, trays, length, from, ask_house, &a, &error), TN_OK);
+        assert_int_equal(tn_house_listing_each(listing, trays, length, from, ask_house, &a, &error), TN_OK);
     tn_cursor_free(cursor);
-    tn_house_variants_free(variants);
+    tn_house_listing_free(listing);
     tn_house_rules_free(a.rules);
     tn_library_free(plans);
     mpz_clears(from, to, NULL);

@@ -12,11 +12,11 @@
 
 #include "runtime/house/bare.h"
 #include "runtime/house/count/houses.h"
+#include "runtime/house/count/listing.h"
 #include "runtime/house/export/export.h"
 #include "runtime/house/rank/rank.h"
+#include "runtime/house/rule/change.h"
 #include "runtime/house/schedule/describe.h"
-#include "runtime/house/variant/change.h"
-#include "runtime/house/variant/variant.h"
 #include "tests/support/failing_memory.h"
 #include "tests/support/test_house.h"
 
@@ -55,14 +55,14 @@ static void expect_robust(operation *operate)
 
 static tn_status count(tn_error *error)
 {
-    tn_house_variants *variants;
+    tn_house_listing *variants;
     tn_house_counts counts;
-    tn_status status = tn_house_variants_new(&made.form, made.some, 0, &variants, error);
+    tn_status status = tn_house_listing_new(&made.form, made.some, 0, &variants, error);
     tn_house_counts_init(&counts);
     if (status == TN_OK)
-        status = tn_house_variants_count(variants, plan.trays, plan.length, &counts, error);
+        status = tn_house_listing_count(variants, plan.trays, plan.length, &counts, error);
     tn_house_counts_clear(&counts);
-    tn_house_variants_free(variants);
+    tn_house_listing_free(variants);
     return status;
 }
 
@@ -96,7 +96,7 @@ static tn_status count_together(tn_error *error)
 static tn_status find_together(tn_error *error)
 {
     tn_houses *houses = NULL;
-    tn_house_variants *variants = NULL;
+    tn_house_listing *variants = NULL;
     tn_house_ranks *ranks = NULL;
     tn_plan_houses *on_plan;
     tn_house last = {0};
@@ -106,11 +106,11 @@ static tn_status find_together(tn_error *error)
     mpz_init(rank);
     tn_status status = tn_houses_new(&made.form, made.all, plans, 0, &houses, error);
     if (status == TN_OK)
-        status = tn_house_variants_new(&made.form, made.all, 0, &variants, error);
+        status = tn_house_listing_new(&made.form, made.all, 0, &variants, error);
     if (status == TN_OK) {
         tn_houses_count(houses, TN_ALL_LENGTHS, rank);
         mpz_sub_ui(rank, rank, 1);
-        status = tn_house_ranks_new(houses, variants, &ranks, error);
+        status = tn_house_ranks_new(houses, &ranks, error);
     }
     if (status == TN_OK)
         status = tn_house_ranks_find(ranks, rank, trays, &length, error);
@@ -120,7 +120,7 @@ static tn_status find_together(tn_error *error)
         status = tn_plan_houses_at(on_plan, rank, &last, error);
     tn_house_clear(&last);
     tn_house_ranks_free(ranks);
-    tn_house_variants_free(variants);
+    tn_house_listing_free(variants);
     tn_houses_free(houses);
     mpz_clear(rank);
     return status;
@@ -148,16 +148,16 @@ static tn_status take_one(void *context, const tn_house *one, bool *stop, tn_err
 static tn_status find_best(tn_houses_aim aim, tn_error *error)
 {
     tn_houses *houses = NULL;
-    tn_house_variants *variants = NULL;
+    tn_house_listing *variants = NULL;
     const tn_houses_what what = {.measures = measures, .aim = aim, .wanted = 3};
     tn_status status = tn_houses_of(&made.form, made.all, plans, &what, 0, &houses, error);
     if (status == TN_OK)
-        status = tn_house_variants_new(&made.form, made.all, 0, &variants, error);
+        status = tn_house_listing_new(&made.form, made.all, 0, &variants, error);
     if (status == TN_OK)
         assert_true(tn_houses_points(houses) > 0);
     if (status == TN_OK)
-        status = tn_houses_point_each(houses, 0, variants, take_one, NULL, error);
-    tn_house_variants_free(variants);
+        status = tn_houses_point_each(houses, 0, take_one, NULL, error);
+    tn_house_listing_free(variants);
     tn_houses_free(houses);
     return status;
 }
@@ -378,21 +378,21 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_count_together), cmocka_unit_test(test_best),
                                        cmocka_unit_test(test_compared), cmocka_unit_test(test_placed),
                                        cmocka_unit_test(test_failing)};
-    tn_house_variants *variants = NULL;
+    tn_house_listing *variants = NULL;
     tn_error error = {0};
     mpz_t variant;
     mpz_init_set_ui(variant, 300);
     test_house_make(&made);
     plan = test_house_plan(&made, "8' room:12' open:4' | 10' room:10' empty");
     tn_library_options options = {.override_trays = true, .trays_min = 1, .trays_max = 1};
-    tn_status status = tn_house_variants_new(&made.form, made.all, 0, &variants, &error);
+    tn_status status = tn_house_listing_new(&made.form, made.all, 0, &variants, &error);
     if (status == TN_OK)
         status = tn_library_new(made.schema, made.some->plans, &options, &plans, &error);
     if (status == TN_OK)
-        status = tn_house_variants_at(variants, plan.trays, plan.length, variant, &house, &error);
+        status = tn_house_listing_at(variants, plan.trays, plan.length, variant, &house, &error);
     if (status == TN_OK)
         status = tn_house_solids(&house, &solids, &error);
-    tn_house_variants_free(variants);
+    tn_house_listing_free(variants);
     mpz_clear(variant);
     sink = fopen("/dev/null", "w");
     int failed = status == TN_OK && sink ? cmocka_run_group_tests(tests, NULL, NULL) : 1;

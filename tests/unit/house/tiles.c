@@ -7,17 +7,17 @@
 
 #include <cmocka.h>
 
-#include "runtime/house/variant/variant.h"
+#include "runtime/house/count/listing.h"
 #include "tests/support/test_house.h"
 
 /* The first house on a plan in whose first cell a tile is wanted; and that cell. */
-static uint32_t wanting_cell(tn_house_variants *houses, const tn_plan *plan, tn_house *house, tn_variants *tiles)
+static uint32_t wanting_cell(tn_house_listing *houses, const tn_plan *plan, tn_house *house, tn_variants *tiles)
 {
     tn_error error = {0};
     mpz_t variant;
     mpz_init(variant);
     for (uint32_t cell = 0;; mpz_add_ui(variant, variant, 1)) {
-        assert_int_equal(tn_house_variants_at(houses, plan->trays, plan->length, variant, house, &error), TN_OK);
+        assert_int_equal(tn_house_listing_at(houses, plan->trays, plan->length, variant, house, &error), TN_OK);
         assert_int_equal(tn_tile_variants(house, cell, tiles, &error), TN_OK);
         if (tiles->count > 0) {
             mpz_clear(variant);
@@ -33,12 +33,12 @@ static void test_no_boxes(void **state)
     test_house made;
     tn_house house;
     tn_variants tiles;
-    tn_house_variants *houses;
+    tn_house_listing *houses;
     tn_error error = {0};
     (void)state;
     test_house_make(&made);
     tn_plan plan = test_house_plan(&made, "10' room:12' empty");
-    assert_int_equal(tn_house_variants_new(&made.form, made.all, 0, &houses, &error), TN_OK);
+    assert_int_equal(tn_house_listing_new(&made.form, made.all, 0, &houses, &error), TN_OK);
     uint32_t cell = wanting_cell(houses, &plan, &house, &tiles);
     assert_true(tiles.item_count > 0);
     tn_variants_clear(&tiles);
@@ -59,7 +59,7 @@ static void test_no_boxes(void **state)
     assert_non_null(tiles.items); /* an array, though an empty one, as whoever adds an offset to it relies on */
 
     tn_variants_clear(&tiles);
-    tn_house_variants_free(houses);
+    tn_house_listing_free(houses);
     tn_house_clear(&house);
     free(plan.trays);
     test_house_clear(&made);

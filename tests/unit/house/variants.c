@@ -9,43 +9,43 @@
 
 #include <cmocka.h>
 
-#include "runtime/house/variant/change.h"
-#include "runtime/house/variant/variant.h"
+#include "runtime/house/count/listing.h"
+#include "runtime/house/rule/change.h"
 #include "tests/support/test_house.h"
 
 static test_house made;
 
-static tn_house_variants *variants_of(const tn_house_library_record *library, uint64_t work)
+static tn_house_listing *variants_of(const tn_house_library_record *library, uint64_t work)
 {
-    tn_house_variants *variants;
+    tn_house_listing *variants;
     tn_error error = {0};
-    assert_int_equal(tn_house_variants_new(&made.form, library, work, &variants, &error), TN_OK);
+    assert_int_equal(tn_house_listing_new(&made.form, library, work, &variants, &error), TN_OK);
     return variants;
 }
 
-static uint64_t count_of(tn_house_variants *variants, const tn_plan *plan, tn_house_counts *counts)
+static uint64_t count_of(tn_house_listing *variants, const tn_plan *plan, tn_house_counts *counts)
 {
     tn_error error = {0};
     tn_house_counts_init(counts);
-    assert_int_equal(tn_house_variants_count(variants, plan->trays, plan->length, counts, &error), TN_OK);
+    assert_int_equal(tn_house_listing_count(variants, plan->trays, plan->length, counts, &error), TN_OK);
     return mpz_get_ui(counts->houses);
 }
 
 /* The line of house `variant`; checks that its rank is `variant` again. */
-static void take(tn_house_variants *variants, const tn_plan *plan, uint64_t variant, tn_house *house)
+static void take(tn_house_listing *variants, const tn_plan *plan, uint64_t variant, tn_house *house)
 {
     tn_error error = {0};
     mpz_t rank;
     mpz_init_set_ui(rank, variant);
-    assert_int_equal(tn_house_variants_at(variants, plan->trays, plan->length, rank, house, &error), TN_OK);
+    assert_int_equal(tn_house_listing_at(variants, plan->trays, plan->length, rank, house, &error), TN_OK);
     mpz_set_ui(rank, 0);
-    assert_int_equal(tn_house_variants_rank(variants, house, rank, &error), TN_OK);
+    assert_int_equal(tn_house_listing_number(variants, house, rank, &error), TN_OK);
     assert_int_equal(mpz_get_ui(rank), variant);
     mpz_clear(rank);
 }
 
 typedef struct walk {
-    tn_house_variants *variants; /* of their own, so that those that walk are left alone */
+    tn_house_listing *variants; /* of their own, so that those that walk are left alone */
     const tn_plan *plan;
     uint64_t next, stop_at;
 } walk;
@@ -55,7 +55,7 @@ static tn_status check_walked(void *context, const tn_house *house, bool *stop, 
     walk *w = context;
     mpz_t rank;
     mpz_init(rank);
-    assert_int_equal(tn_house_variants_rank(w->variants, house, rank, error), TN_OK);
+    assert_int_equal(tn_house_listing_number(w->variants, house, rank, error), TN_OK);
     assert_int_equal(mpz_get_ui(rank), w->next++);
     mpz_clear(rank);
     *stop = w->next == w->stop_at;
@@ -63,20 +63,20 @@ static tn_status check_walked(void *context, const tn_house *house, bool *stop, 
 }
 
 /* Walks over the houses from a number on: none is left out, and the walk ends where it is told to. */
-static void check_walk(tn_house_variants *walked, tn_house_variants *asked, const tn_plan *plan, uint64_t from,
+static void check_walk(tn_house_listing *walked, tn_house_listing *asked, const tn_plan *plan, uint64_t from,
                        uint64_t houses)
 {
     tn_error error = {0};
     mpz_t first;
     walk w = {asked, plan, from, houses > from + 40 ? from + 40 : UINT64_MAX};
     mpz_init_set_ui(first, from);
-    assert_int_equal(tn_house_variants_each(walked, plan->trays, plan->length, first, check_walked, &w, &error), TN_OK);
+    assert_int_equal(tn_house_listing_each(walked, plan->trays, plan->length, first, check_walked, &w, &error), TN_OK);
     assert_int_equal(w.next, w.stop_at == UINT64_MAX ? houses : w.stop_at);
     mpz_clear(first);
 }
 
 /* How many of all houses on the plan the clauses keep, each asked of each house; they come in the same order. */
-static uint64_t count_one_by_one(tn_house_variants *all, tn_house_variants *some, const tn_plan *plan, uint64_t houses)
+static uint64_t count_one_by_one(tn_house_listing *all, tn_house_listing *some, const tn_plan *plan, uint64_t houses)
 {
     tn_house_rules *rules;
     tn_error error = {0};
@@ -91,7 +91,7 @@ static uint64_t count_one_by_one(tn_house_variants *all, tn_house_variants *some
         if (keep) {
             mpz_t rank;
             mpz_init(rank);
-            assert_int_equal(tn_house_variants_rank(some, &house, rank, &error), TN_OK);
+            assert_int_equal(tn_house_listing_number(some, &house, rank, &error), TN_OK);
             assert_int_equal(mpz_get_ui(rank), kept);
             mpz_clear(rank);
         }
@@ -108,7 +108,7 @@ static void test_counts(void **state)
     static const char *const lines[] = {
         "8' room:10' empty", "10' room:12' open:4'", "8' room:10' empty | 8' room:10' empty",
         "8' room:12' open:4' | 10' room:10' empty", "10' room:10' empty | 10' room:10' empty"};
-    tn_house_variants *all = variants_of(made.all, 0), *some = variants_of(made.some, 0);
+    tn_house_listing *all = variants_of(made.all, 0), *some = variants_of(made.some, 0);
     uint64_t in_all = 0, looked_at = 0;
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         tn_plan plan = test_house_plan(&made, lines[i]);
@@ -118,11 +118,11 @@ static void test_counts(void **state)
         looked_at += houses < 6000;
         if (houses < 6000) {
             assert_int_equal(count_one_by_one(all, some, &plan, houses), wanted);
-            tn_house_variants *asked = variants_of(made.some, 0);
+            tn_house_listing *asked = variants_of(made.some, 0);
             check_walk(some, asked, &plan, 0, wanted);
             check_walk(some, asked, &plan, wanted / 2, wanted);
             check_walk(some, asked, &plan, wanted, wanted);
-            tn_house_variants_free(asked);
+            tn_house_listing_free(asked);
         } else
             assert_true(wanted < houses);
         tn_house_counts_clear(&counts);
@@ -130,36 +130,36 @@ static void test_counts(void **state)
         free(plan.trays);
     }
     assert_true(in_all > 15 && looked_at == 5);
-    tn_house_variants_free(all);
-    tn_house_variants_free(some);
+    tn_house_listing_free(all);
+    tn_house_listing_free(some);
 }
 
 /* A rank that no house has; too little work. */
 static void test_limits(void **state)
 {
     (void)state;
-    tn_house_variants *variants = variants_of(made.some, 40);
+    tn_house_listing *variants = variants_of(made.some, 40);
     tn_plan plan = test_house_plan(&made, "8' room:10' empty | 8' room:10' empty");
     tn_house_counts counts;
     tn_error error = {0};
     tn_house_counts_init(&counts);
-    assert_int_equal(tn_house_variants_count(variants, plan.trays, plan.length, &counts, &error), TN_LIMIT);
+    assert_int_equal(tn_house_listing_count(variants, plan.trays, plan.length, &counts, &error), TN_LIMIT);
     assert_int_equal(error.code, E_VARIANTS);
     assert_non_null(strstr(error.help, "most of them ask `"));
     tn_house_counts_clear(&counts);
-    tn_house_variants_free(variants);
+    tn_house_listing_free(variants);
 
     variants = variants_of(made.some, 0);
     uint64_t houses = count_of(variants, &plan, &counts);
     tn_house house;
     mpz_t rank;
     mpz_init_set_ui(rank, houses);
-    assert_int_equal(tn_house_variants_at(variants, plan.trays, plan.length, rank, &house, &error), TN_INVALID);
+    assert_int_equal(tn_house_listing_at(variants, plan.trays, plan.length, rank, &house, &error), TN_INVALID);
     assert_int_equal(error.code, E_NO_VARIANT);
     mpz_clear(rank);
     tn_house_clear(&house);
     tn_house_counts_clear(&counts);
-    tn_house_variants_free(variants);
+    tn_house_listing_free(variants);
     free(plan.trays);
 }
 
@@ -167,7 +167,7 @@ static void test_limits(void **state)
 
 /* Ranks that were listed. */
 typedef struct listed {
-    tn_house_variants *variants;
+    tn_house_listing *variants;
     bool of[6000];
     size_t count;
 } listed;
@@ -178,7 +178,7 @@ static tn_status list(void *context, const tn_house_change *change, const tn_hou
     mpz_t rank;
     (void)change;
     mpz_init(rank);
-    tn_status status = tn_house_variants_rank(l->variants, changed, rank, error);
+    tn_status status = tn_house_listing_number(l->variants, changed, rank, error);
     if (status == TN_OK) {
         assert_false(l->of[mpz_get_ui(rank)]); /* each once */
         l->of[mpz_get_ui(rank)] = true;
@@ -223,7 +223,7 @@ static size_t differences(const tn_house *a, const tn_house *b)
 static void test_changes(void **state)
 {
     (void)state;
-    tn_house_variants *some = variants_of(made.some, 0);
+    tn_house_listing *some = variants_of(made.some, 0);
     tn_plan plan = test_house_plan(&made, "8' room:12' open:4' | 10' room:10' empty");
     tn_house_rules *rules;
     tn_house_counts counts;
@@ -251,7 +251,7 @@ static void test_changes(void **state)
     assert_true(found > 5 && more >= found);
     tn_house_rules_free(rules);
     tn_house_counts_clear(&counts);
-    tn_house_variants_free(some);
+    tn_house_listing_free(some);
     free(plan.trays);
 }
 

@@ -15,7 +15,6 @@
 #include "runtime/module/builder.h"
 #include "runtime/module/engine.h"
 #include "runtime/module/layout.h"
-#include "runtime/module/load.h"
 #include "runtime/module/records.h"
 
 /* ---- an engine that has all sections, and stops the loader once all fields were found right */

@@ -2,7 +2,7 @@
  * study could say is refused. */
 #include "runtime/genome/settings.h"
 #include "runtime/genome/breeding/evolve.h"
-#include "runtime/genome/breeding/fit_error.h"
+#include "runtime/genome/breeding/problem.h"
 #include "runtime/load.h"
 #include "tests/support/test_grammar.h"
 

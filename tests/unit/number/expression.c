@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "compiler/common/expression.h"
-#include "runtime/growth/model/records.h"
+#include "runtime/growth/model/system.h"
 #include "runtime/load.h"
 #include "runtime/number/run.h"
 #include "tests/support/compile_file.h"
@@ -113,8 +113,8 @@ static tn_expression *build(tn_arena *arena, const test_expression *e)
 static void check_violation(const test_expression *tree, const tn_formula *value, const tn_formula *violation,
                             const double *terms, bool shares)
 {
-    double got = tn_number_run(violation->code, 0, terms), wanted = test_expression_violation(tree, terms, true, shares),
-           truth = tn_number_run(value->code, 0, terms);
+    double got = tn_number_run(violation->code, 0, terms),
+           wanted = test_expression_violation(tree, terms, true, shares), truth = tn_number_run(value->code, 0, terms);
     if (!test_same(got, wanted)) {
         test_expression_write(tree, tn_names_MEASURED, stderr);
         fail_msg(" is %a from holding, not %a", got, wanted);

@@ -7,8 +7,8 @@
 
 #include <cmocka.h>
 
+#include "runtime/number/formula.h"
 #include "runtime/number/run.h"
-#include "runtime/number/sentence.h"
 #include "tests/support/failing_memory.h"
 
 /* Reads a sentence of many rows of code and evaluates it; how many allocations it took. */

@@ -8,9 +8,9 @@
 
 #include <cmocka.h>
 
+#include "runtime/math/elementary.h"
+#include "runtime/number/formula.h"
 #include "runtime/number/run.h"
-#include "runtime/number/sentence.h"
-#include "runtime/numeric/numeric.h"
 #include "tests/support/test_expression.h"
 
 static const char *const names[TEST_TERMS] = {"x", "y", "x0", "x1", "long_name", "a-b", "X", "z9", "_"};

@@ -10,8 +10,8 @@
 #include <cmocka.h>
 
 #include "runtime/base/random.h"
+#include "runtime/number/formula.h"
 #include "runtime/number/run.h"
-#include "runtime/number/sentence.h"
 #include "runtime/number/shared.h"
 
 enum { POINTS = 700, FORMULAS = 60, TERMS = 3 };

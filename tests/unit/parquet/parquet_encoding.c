@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "driver/parquet/encoding.h"
-#include "driver/parquet/numbers.h"
+#include "driver/parquet/writer.h"
 #include "runtime/base/bytes.h"
 #include "tests/support/test_rule.h"
 

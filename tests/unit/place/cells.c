@@ -10,8 +10,8 @@
 
 #include "runtime/base/memory.h"
 #include "runtime/base/random.h"
-#include "runtime/place/bounds.h"
-#include "runtime/place/mersenne.h"
+#include "runtime/place/cells.h"
+#include "runtime/place/derivation.h"
 
 enum { SIDE = 80, HALF = SIDE / 2 };
 static bool filled[SIDE][SIDE][SIDE];

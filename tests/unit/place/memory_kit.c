@@ -9,11 +9,11 @@
 
 #include <cmocka.h>
 
-#include "compiler/notation.h"
+#include "compiler/compile.h"
 #include "driver/open/open.h"
 #include "runtime/geometry/mesh.h"
-#include "runtime/place/conditions.h"
 #include "runtime/place/count/count.h"
+#include "runtime/place/measure.h"
 #include "runtime/place/search/search.h"
 #include "runtime/place/steps.h"
 #include "tests/support/fail_each.h"

@@ -12,7 +12,7 @@
 #include "runtime/base/random.h"
 #include "runtime/geometry/union/union.h"
 #include "runtime/geometry/visible.h"
-#include "runtime/scene/view_parts.h"
+#include "runtime/scene/seen.h"
 #include "runtime/solid/design.h"
 #include "tests/support/share.h"
 

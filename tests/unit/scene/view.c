@@ -8,8 +8,8 @@
 
 #include <cmocka.h>
 
-#include "runtime/geometry/camera.h"
-#include "runtime/scene/view_parts.h"
+#include "runtime/geometry/render.h"
+#include "runtime/scene/seen.h"
 
 typedef struct shape {
     uint32_t group, count;

@@ -9,7 +9,6 @@
 
 #include <cmocka.h>
 
-#include "driver/shards/check.h"
 #include "driver/shards/gather.h"
 #include "driver/shards/manifest.h"
 #include "driver/shards/run.h"

@@ -12,8 +12,6 @@
 
 #include <cmocka.h>
 
-#include "driver/shards/check.h"
-#include "driver/shards/claim.h"
 #include "driver/shards/gather.h"
 #include "driver/shards/hash.h"
 #include "driver/shards/manifest.h"

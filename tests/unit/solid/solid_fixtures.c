@@ -12,7 +12,7 @@
 
 #include "runtime/geometry/union/contacts.h"
 #include "runtime/geometry/union/union.h"
-#include "runtime/numeric/numeric.h"
+#include "runtime/math/elementary.h"
 #include "runtime/solid/measure.h"
 
 static double real(const json_t *value)

@@ -13,7 +13,7 @@
 #include "runtime/base/random.h"
 #include "runtime/geometry/union/contacts.h"
 #include "runtime/geometry/union/union.h"
-#include "runtime/numeric/numeric.h"
+#include "runtime/math/elementary.h"
 #include "runtime/solid/measure.h"
 #include "tests/support/openmesh_takes.h"
 

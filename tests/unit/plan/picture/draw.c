@@ -12,7 +12,7 @@
 
 #include "runtime/base/file.h"
 #include "runtime/draw/canvas.h"
-#include "runtime/draw/paper.h"
+#include "runtime/draw/scales.h"
 #include "runtime/plan/picture/draw.h"
 #include "tests/support/test_schema.h"
 

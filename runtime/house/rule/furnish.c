@@ -1,0 +1,590 @@
+/* Goes through combinations of tiles, also if clauses ask what these cost. */
+#include "runtime/house/rule/furnish.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "runtime/automata/numbering.h"
+#include "runtime/base/array.h"
+#include "runtime/base/integers.h"
+
+#include "runtime/house/measure/measure.h"
+#include "runtime/house/rule/asked.h"
+#include "runtime/house/rule/stages.h"
+#include "runtime/house/schedule/cost.h"
+
+/* How many tiles fit in a cell, kept for cells of one function and storey that are equally large and have the same in
+ * and near their faces: plans of a library have few kinds of these. */
+typedef struct tn_fits {
+    bool *wanted; /* [functions] a tile is for it */
+    tn_interner cells;
+    tn_key key;
+    size_t *counts; /* [cells] */
+    size_t room;
+} tn_fits;
+
+enum { FITS_MAX = 1 << 16 }; /* kinds of cells: with more the counts are forgotten */
+
+/* What the tiles from a cell on can cost together, in steps, ascending; times: combinations that cost so much. */
+typedef struct tn_tile_sums {
+    tn_int128 *steps;
+    mpz_t *times;
+    size_t count;
+} tn_tile_sums;
+
+/* What the tiles of the house at hand cost. kept: of each sum of all tiles, is the house one with it? */
+typedef struct tn_tile_costs {
+    size_t cells;
+    size_t *tiles;      /* [cells] how many have a cost; 0: it wants none */
+    mpq_t **exact;      /* [cell][tile] costs */
+    tn_int128 **steps;  /* the same in steps */
+    tn_tile_sums *sums; /* [cells + 1] */
+    bool *kept;
+    mpq_t unit, shell, price;
+} tn_tile_costs;
+
+struct tn_furnisher {
+    const tn_house_form *form;
+    const tn_house_library_record *library;
+    tn_clause_stage *stages; /* of each clause */
+    bool prices;             /* a clause is of the stage of tiles */
+    tn_house_rules *rules;   /* NULL unless one is */
+    tn_house *house;
+    tn_fits fits;
+    size_t *tiles; /* how many fit in each cell; 1 if it wants none */
+    size_t tile_room;
+    tn_tile_costs *costs; /* NULL: every combination counts */
+};
+
+/* ==== tiles that fit in a cell */
+
+static void mark_purposes(const tn_house_form *form, const tn_tile_record *tile, bool *wanted)
+{
+    for (uint32_t i = 0; i < tile->purpose_count; i++)
+        wanted[form->module->HOUSE_ITEM_records[tile->purpose_first + i].number] = true;
+}
+
+static tn_status begin_fits(const tn_house_form *form, tn_fits *fits, tn_error *error)
+{
+    fits->wanted = calloc((size_t)tn_form_functions(form) + 1, sizeof *fits->wanted);
+    if (!fits->wanted)
+        return tn_fail_memory(error);
+    for (uint32_t t = 0; t < form->record->tile_count; t++)
+        mark_purposes(form, &form->module->TILE_records[form->record->tile_first + t], fits->wanted);
+    return TN_OK;
+}
+
+static void clear_fits(tn_fits *fits)
+{
+    free(fits->wanted);
+    free(fits->counts);
+    free(fits->key.data);
+    tn_interner_clear(&fits->cells);
+}
+
+static bool is_wanted(const tn_fits *fits, const tn_cell *cell)
+{
+    return !cell->open && cell->function != TN_NO_FUNCTION && fits->wanted[cell->function];
+}
+
+/* ---- what the tiles of a cell depend on */
+
+enum { CELL_WORDS = 2 + 2 * 2, FACE_WORDS = 1 + 4 * 2 };
+
+static uint32_t *add_long(uint32_t *word, int64_t value)
+{
+    *word++ = (uint32_t)value;
+    *word++ = (uint32_t)((uint64_t)value >> 32);
+    return word;
+}
+
+/* What is in the face, and whether it is one of the cell's: others matter by the posts at their ends. */
+static uint32_t *add_face(uint32_t *word, const tn_face *face, const tn_cell *cell, uint32_t index)
+{
+    enum { FIRST = 1, SECOND, OUTSIDE = 4, SIDE = 8, KIND = 64 };
+    uint32_t of = face->first == index ? FIRST : face->second == index ? SECOND : 0;
+    uint32_t outside = face->relation == TN_FACE_OUTSIDE ? OUTSIDE : 0;
+    *word++ = face->kind * KIND + (uint32_t)face->side * SIDE + outside + of;
+    word = add_long(word, face->at.x0 - cell->at.x0);
+    word = add_long(word, face->at.x1 - cell->at.x0);
+    word = add_long(word, face->at.y0 - cell->at.y0);
+    return add_long(word, face->at.y1 - cell->at.y0);
+}
+
+static bool is_near(const tn_face *face, const tn_cell *cell)
+{
+    return face->storey == cell->storey && face->relation != TN_FACE_UNDER && face->at.x0 <= cell->at.x1 &&
+           face->at.x1 >= cell->at.x0 && face->at.y0 <= cell->at.y1 && face->at.y1 >= cell->at.y0;
+}
+
+static bool make_key(tn_key *key, const tn_house *house, uint32_t index)
+{
+    const tn_cell *cell = &house->cells[index];
+    if (!tn_array_reserve(&key->data, &key->capacity, 0, CELL_WORDS + house->face_count * FACE_WORDS,
+                          sizeof *key->data))
+        return false;
+    uint32_t *word = key->data;
+    *word++ = cell->function;
+    *word++ = cell->storey;
+    word = add_long(word, cell->at.x1 - cell->at.x0);
+    word = add_long(word, cell->at.y1 - cell->at.y0);
+    for (size_t i = 0; i < house->face_count; i++)
+        if (is_near(&house->faces[i], cell))
+            word = add_face(word, &house->faces[i], cell, index);
+    key->size = (size_t)(word - key->data);
+    return true;
+}
+
+static tn_status find_count(const tn_house *house, uint32_t cell, size_t *count, tn_error *error)
+{
+    tn_variants tiles;
+    tn_status status = tn_tile_variants(house, cell, &tiles, error);
+    *count = tiles.count;
+    tn_variants_clear(&tiles);
+    return status;
+}
+
+/* The faces of the house are all known. */
+static tn_status fits_count(tn_fits *fits, const tn_house *house, uint32_t cell, size_t *count, tn_error *error)
+{
+    if (fits->cells.count == FITS_MAX)
+        tn_interner_clear(&fits->cells);
+    uint32_t before = fits->cells.count;
+    if (!tn_array_reserve(&fits->counts, &fits->room, before, 1, sizeof *fits->counts) ||
+        !make_key(&fits->key, house, cell))
+        return tn_fail_memory(error);
+    uint32_t number = tn_intern(&fits->cells, fits->key.data, fits->key.size);
+    if (number == UINT32_MAX)
+        return tn_fail_memory(error);
+    tn_status status = number == before ? find_count(house, cell, &fits->counts[number], error) : TN_OK;
+    if (status != TN_OK)
+        tn_interner_clear(&fits->cells); /* the last one has no count */
+    else
+        *count = fits->counts[number];
+    return status;
+}
+
+/* How many tiles fit in each cell. *fit: does one in each? */
+static tn_status count_tiles(tn_furnisher *f, bool *fit, tn_error *error)
+{
+    tn_status status = TN_OK;
+    *fit = true;
+    if (!tn_array_reserve(&f->tiles, &f->tile_room, 0, f->house->cell_count + 1, sizeof *f->tiles))
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; status == TN_OK && *fit && i < f->house->cell_count; i++) {
+        f->tiles[i] = 1;
+        if (is_wanted(&f->fits, &f->house->cells[i]))
+            status = fits_count(&f->fits, f->house, i, &f->tiles[i], error);
+        *fit = f->tiles[i] > 0;
+    }
+    return status;
+}
+
+/* ==== what they cost */
+
+static void clear_cell(tn_tile_costs *c, size_t cell)
+{
+    for (size_t t = 0; t < c->tiles[cell]; t++)
+        mpq_clear(c->exact[cell][t]);
+    free(c->exact[cell]);
+    free(c->steps[cell]);
+}
+
+static void clear_costs(tn_furnisher *f)
+{
+    tn_tile_costs *c = f->costs;
+    if (!c)
+        return;
+    for (size_t i = 0; c->tiles && c->exact && c->steps && i < c->cells; i++)
+        clear_cell(c, i);
+    for (size_t i = 0; c->sums && i <= c->cells; i++) {
+        free(c->sums[i].steps);
+        tn_integers_free(c->sums[i].times, c->sums[i].count);
+    }
+    free(c->tiles);
+    free(c->exact);
+    free(c->steps);
+    free(c->sums);
+    free(c->kept);
+    mpq_clears(c->unit, c->shell, c->price, NULL);
+    free(c);
+    f->costs = NULL;
+}
+
+static tn_status begin(tn_furnisher *f, tn_error *error)
+{
+    tn_tile_costs *c = f->costs = calloc(1, sizeof *c);
+    if (!c)
+        return tn_fail_memory(error);
+    mpq_inits(c->unit, c->shell, c->price, NULL);
+    c->cells = f->house->cell_count;
+    c->tiles = calloc(c->cells + 1, sizeof *c->tiles);
+    c->exact = calloc(c->cells + 1, sizeof *c->exact);
+    c->steps = calloc(c->cells + 1, sizeof *c->steps);
+    c->sums = calloc(c->cells + 1, sizeof *c->sums);
+    return c->tiles && c->exact && c->steps && c->sums ? TN_OK : tn_fail_memory(error);
+}
+
+/* ---- what each tile costs */
+
+static tn_status price_cell(tn_furnisher *f, uint32_t cell, tn_error *error)
+{
+    tn_tile_costs *c = f->costs;
+    tn_variants tiles;
+    tn_status status = tn_tile_variants(f->house, cell, &tiles, error);
+    if (status == TN_OK && tiles.wanted) {
+        c->exact[cell] = malloc((tiles.count + 1) * sizeof *c->exact[cell]);
+        c->steps[cell] = calloc(tiles.count + 1, sizeof *c->steps[cell]);
+        status = c->exact[cell] && c->steps[cell] ? TN_OK : tn_fail_memory(error);
+    }
+    for (size_t t = 0; status == TN_OK && tiles.wanted && t < tiles.count; t++) {
+        const tn_tile_variant *tile = &tiles.variants[t];
+        mpq_init(c->exact[cell][t]);
+        c->tiles[cell]++;
+        tn_house_items_cost(f->house, tiles.items + tile->item_first, tile->item_count, c->exact[cell][t]);
+        tn_common_unit(c->unit, c->exact[cell][t]);
+    }
+    tn_variants_clear(&tiles);
+    return status;
+}
+
+static tn_status price_cells(tn_furnisher *f, tn_error *error)
+{
+    tn_tile_costs *c = f->costs;
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < c->cells; i++)
+        status = price_cell(f, i, error);
+    if (mpq_sgn(c->unit) == 0)
+        mpq_set_ui(c->unit, 1, 1);
+    for (size_t i = 0; status == TN_OK && i < c->cells; i++)
+        for (size_t t = 0; t < c->tiles[i]; t++)
+            if (!tn_steps_of(c->exact[i][t], c->unit, &c->steps[i][t]))
+                return tn_too_fine(error);
+    return status;
+}
+
+static tn_int128 cost_of(const tn_tile_costs *c, size_t cell, size_t tile)
+{
+    return c->tiles[cell] > 0 ? c->steps[cell][tile] : 0;
+}
+
+/* ---- sums */
+
+typedef struct tn_part_sum {
+    tn_int128 steps;
+    size_t of; /* of the sums behind */
+} tn_part_sum;
+
+static int compare_parts(const void *a, const void *b)
+{
+    const tn_part_sum *p = a, *q = b;
+    return (p->steps > q->steps) - (p->steps < q->steps);
+}
+
+/* Joins equal sums. */
+static tn_status join(const tn_part_sum *parts, size_t count, const tn_tile_sums *behind, tn_tile_sums *sums,
+                      tn_error *error)
+{
+    sums->steps = malloc((count + 1) * sizeof *sums->steps);
+    sums->times = malloc((count + 1) * sizeof *sums->times);
+    if (!sums->steps || !sums->times)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < count; i++) {
+        if (sums->count == 0 || sums->steps[sums->count - 1] != parts[i].steps) {
+            sums->steps[sums->count] = parts[i].steps;
+            mpz_init(sums->times[sums->count++]);
+        }
+        mpz_add(sums->times[sums->count - 1], sums->times[sums->count - 1], behind->times[parts[i].of]);
+    }
+    return TN_OK;
+}
+
+static tn_status add_up(const tn_furnisher *f, size_t cell, tn_error *error)
+{
+    tn_tile_costs *c = f->costs;
+    const tn_tile_sums *behind = &c->sums[cell + 1];
+    size_t count = 0;
+    tn_part_sum *parts = tn_array_new(tn_size_of(f->tiles[cell], behind->count) + 1, sizeof *parts);
+    if (!parts)
+        return tn_fail_memory(error);
+    for (size_t t = 0; t < f->tiles[cell]; t++)
+        for (size_t i = 0; i < behind->count; i++)
+            parts[count++] = (tn_part_sum){cost_of(c, cell, t) + behind->steps[i], i};
+    qsort(parts, count, sizeof *parts, compare_parts);
+    tn_status status = join(parts, count, behind, &c->sums[cell], error);
+    free(parts);
+    return status;
+}
+
+static tn_status add_all(const tn_furnisher *f, tn_error *error)
+{
+    const tn_tile_costs *c = f->costs;
+    tn_tile_sums *last = &c->sums[c->cells];
+    last->steps = calloc(1, sizeof *last->steps);
+    last->times = tn_integers_new(1);
+    if (!last->steps || !last->times)
+        return tn_fail_memory(error);
+    last->count = 1;
+    mpz_set_ui(last->times[0], 1);
+    tn_status status = TN_OK;
+    for (size_t i = c->cells; status == TN_OK && i-- > 0;)
+        status = add_up(f, i, error);
+    return status;
+}
+
+/* ---- which sums are kept */
+
+static tn_status ask_clauses(tn_furnisher *f, tn_int128 steps, bool *kept, tn_error *error)
+{
+    tn_tile_costs *c = f->costs;
+    tn_status status = tn_house_rules_start(f->rules, f->house, error); /* forgets the answers at another price */
+    tn_steps_number(steps, c->unit, c->price);
+    mpq_add(c->price, c->price, c->shell);
+    if (status == TN_OK)
+        tn_house_rules_price(f->rules, c->price);
+    for (uint32_t i = 0; status == TN_OK && *kept && i < f->library->clause_count; i++) {
+        bool drops = false;
+        if (f->stages[i] != TN_STAGE_TILES)
+            continue;
+        status = tn_house_rules_drop(f->rules, f->library, i, &drops, error);
+        *kept = !drops;
+    }
+    return status;
+}
+
+/* cost: or NULL. */
+static tn_status choose_sums(tn_furnisher *f, mpq_srcptr cost, tn_error *error)
+{
+    tn_tile_costs *c = f->costs;
+    tn_int128 wanted = 0;
+    bool possible = !cost || tn_steps_of(cost, c->unit, &wanted);
+    tn_status status = TN_OK;
+    c->kept = calloc(c->sums[0].count + 1, sizeof *c->kept);
+    if (!c->kept)
+        return tn_fail_memory(error);
+    if (f->prices && possible)
+        status = tn_house_exact_cost(f->house, tn_house_shell, c->shell, error);
+    for (size_t i = 0; status == TN_OK && possible && i < c->sums[0].count; i++) {
+        c->kept[i] = !cost || c->sums[0].steps[i] == wanted;
+        if (f->prices && c->kept[i])
+            status = ask_clauses(f, c->sums[0].steps[i], &c->kept[i], error);
+    }
+    return status;
+}
+
+static tn_status add_costs(tn_furnisher *f, mpq_srcptr cost, tn_error *error)
+{
+    tn_status status = begin(f, error);
+    if (status == TN_OK)
+        status = price_cells(f, error);
+    if (status == TN_OK)
+        status = add_all(f, error);
+    return status == TN_OK ? choose_sums(f, cost, error) : status;
+}
+
+/* ---- combinations */
+
+static bool is_kept(const tn_tile_costs *c, tn_int128 steps)
+{
+    size_t low = 0, high = c->sums[0].count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (c->sums[0].steps[middle] < steps)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < c->sums[0].count && c->sums[0].steps[low] == steps && c->kept[low];
+}
+
+/* count := the kept combinations of the tiles from a cell on, where those before it cost so much. */
+static void count_from(const tn_tile_costs *c, size_t cell, tn_int128 before, mpz_t count)
+{
+    mpz_set_ui(count, 0);
+    for (size_t i = 0; i < c->sums[cell].count; i++)
+        if (is_kept(c, before + c->sums[cell].steps[i]))
+            mpz_add(count, count, c->sums[cell].times[i]);
+}
+
+static void count_all(const tn_furnisher *f, mpz_t count)
+{
+    if (f->costs) {
+        count_from(f->costs, 0, 0, count);
+        return;
+    }
+    mpz_set_ui(count, 1);
+    for (size_t i = 0; i < f->house->cell_count; i++)
+        mpz_mul_ui(count, count, f->tiles[i]);
+}
+
+/* Sets the tiles from a cell on to the combination that `left` kept ones come before, which is there. */
+static void find_from(tn_furnisher *f, size_t cell, tn_int128 before, mpz_t left)
+{
+    const tn_tile_costs *c = f->costs;
+    mpz_t here;
+    mpz_init(here);
+    for (size_t i = cell; i < f->house->cell_count; i++) {
+        size_t tile = 0;
+        for (; tile + 1 < f->tiles[i]; tile++) {
+            count_from(c, i + 1, before + cost_of(c, i, tile), here);
+            if (mpz_cmp(left, here) < 0)
+                break;
+            mpz_sub(left, left, here);
+        }
+        f->house->cells[i].variant = tile;
+        before += cost_of(c, i, tile);
+    }
+    mpz_clear(here);
+}
+
+void tn_furnish_at(tn_furnisher *f, const mpz_t number)
+{
+    mpz_t left;
+    mpz_init_set(left, number);
+    if (f->costs)
+        find_from(f, 0, 0, left);
+    else
+        for (size_t i = f->house->cell_count; i-- > 0;)
+            f->house->cells[i].variant = (size_t)mpz_fdiv_q_ui(left, left, f->tiles[i]);
+    mpz_clear(left);
+}
+
+/* Is there a kept combination with one of the cell's next tiles? Then the tiles are set to the first such. */
+static bool turn(tn_furnisher *f, size_t cell, tn_int128 before)
+{
+    const tn_tile_costs *c = f->costs;
+    mpz_t count;
+    bool found = false;
+    mpz_init(count);
+    for (size_t tile = f->house->cells[cell].variant + 1; !found && tile < f->tiles[cell]; tile++) {
+        count_from(c, cell + 1, before + cost_of(c, cell, tile), count);
+        found = mpz_sgn(count) > 0;
+        f->house->cells[cell].variant = tile;
+    }
+    mpz_set_ui(count, 0);
+    if (found)
+        find_from(f, cell + 1, before + cost_of(c, cell, f->house->cells[cell].variant), count);
+    mpz_clear(count);
+    return found;
+}
+
+static bool next_kept(tn_furnisher *f)
+{
+    const tn_tile_costs *c = f->costs;
+    tn_int128 before = 0;
+    for (size_t i = 0; i < f->house->cell_count; i++)
+        before += cost_of(c, i, f->house->cells[i].variant);
+    for (size_t i = f->house->cell_count; i-- > 0;) {
+        before -= cost_of(c, i, f->house->cells[i].variant);
+        if (turn(f, i, before))
+            return true;
+        f->house->cells[i].variant = 0;
+    }
+    return false;
+}
+
+/* The last cell's tile changes first. */
+bool tn_furnish_next(tn_furnisher *f)
+{
+    if (f->costs)
+        return next_kept(f);
+    for (size_t i = f->house->cell_count; i-- > 0;) {
+        if (++f->house->cells[i].variant < f->tiles[i])
+            return true;
+        f->house->cells[i].variant = 0;
+    }
+    return false;
+}
+
+bool tn_furnish_has(const tn_furnisher *f, const tn_house *house)
+{
+    tn_int128 cost = 0;
+    for (size_t i = 0; f->costs && i < house->cell_count; i++)
+        cost += cost_of(f->costs, i, house->cells[i].variant);
+    return !f->costs || is_kept(f->costs, cost);
+}
+
+static void count_before(const tn_tile_costs *c, const tn_house *house, mpz_t count)
+{
+    tn_int128 before = 0;
+    mpz_t here;
+    mpz_init(here);
+    for (size_t i = 0; i < house->cell_count; i++) {
+        for (size_t tile = 0; tile < house->cells[i].variant; tile++) {
+            count_from(c, i + 1, before + cost_of(c, i, tile), here);
+            mpz_add(count, count, here);
+        }
+        before += cost_of(c, i, house->cells[i].variant);
+    }
+    mpz_clear(here);
+}
+
+void tn_furnish_before(const tn_furnisher *f, const tn_house *house, mpz_t count)
+{
+    mpz_set_ui(count, 0);
+    if (f->costs) {
+        count_before(f->costs, house, count);
+        return;
+    }
+    for (size_t i = 0; i < house->cell_count; i++) {
+        mpz_mul_ui(count, count, f->tiles[i]);
+        mpz_add_ui(count, count, house->cells[i].variant);
+    }
+}
+
+tn_status tn_furnish(tn_furnisher *f, tn_house *house, mpq_srcptr cost, mpz_t count, tn_error *error)
+{
+    bool fit = false;
+    f->house = house;
+    clear_costs(f);
+    for (size_t i = 0; i < house->cell_count; i++)
+        house->cells[i].variant = 0;
+    mpz_set_ui(count, 0);
+    tn_status status = count_tiles(f, &fit, error);
+    if (status == TN_OK && fit && (f->prices || cost))
+        status = add_costs(f, cost, error);
+    if (status == TN_OK && fit)
+        count_all(f, count);
+    return status;
+}
+
+/* ==== making */
+
+tn_status tn_furnisher_new(const tn_house_form *form, const tn_house_library_record *library, tn_furnisher **out,
+                           tn_error *error)
+{
+    tn_furnisher *f = *out = calloc(1, sizeof *f);
+    if (!f)
+        return tn_fail_memory(error);
+    *f = (tn_furnisher){.form = form, .library = library};
+    f->stages = calloc((size_t)library->clause_count + 1, sizeof *f->stages);
+    tn_status status = f->stages ? tn_clause_stages(form, library, f->stages, error) : tn_fail_memory(error);
+    for (uint32_t i = 0; status == TN_OK && i < library->clause_count; i++)
+        f->prices = f->prices || f->stages[i] == TN_STAGE_TILES;
+    if (status == TN_OK)
+        status = begin_fits(form, &f->fits, error);
+    if (status == TN_OK && f->prices)
+        status = tn_house_rules_new(form, 0, &f->rules, error);
+    if (status != TN_OK) {
+        tn_furnisher_free(f);
+        *out = NULL;
+    }
+    return status;
+}
+
+void tn_furnisher_free(tn_furnisher *f)
+{
+    if (!f)
+        return;
+    clear_costs(f);
+    clear_fits(&f->fits);
+    tn_house_rules_free(f->rules);
+    free(f->stages);
+    free(f->tiles);
+    free(f);
+}
+
+bool tn_furnisher_prices(const tn_furnisher *f)
+{
+    return f->prices;
+}

@@ -1,0 +1,22 @@
+/* When a clause of a library of houses can be asked: how much of a house has to be known for what it asks. */
+#ifndef TARTAN_HOUSE_STAGES_H
+#define TARTAN_HOUSE_STAGES_H
+
+#include "runtime/house/house.h"
+#include "runtime/module/code.h"
+
+typedef enum tn_clause_stage {
+    TN_STAGE_SECTION,   /* the plan, the section, which cells there are */
+    TN_STAGE_FUNCTIONS, /* their functions */
+    TN_STAGE_FACES,     /* what is in the faces: rooms, walks, what touches what */
+    TN_STAGE_TILES      /* what it costs, also what stands in its rooms */
+} tn_clause_stage;
+
+/* The stage of each clause of the library. */
+tn_status tn_clause_stages(const tn_house_form *form, const tn_house_library_record *library, tn_clause_stage *stages,
+                           tn_error *error);
+
+/* Marks the functions that an instruction names. */
+void tn_mark_operands(const tn_module *module, const tn_instruction *op, bool *reached);
+
+#endif
