@@ -71,17 +71,18 @@ class Place:
 
 PARENTHESES = {"primary: OPEN expression CLOSE"}
 QUESTIONS = {"rule", "part"}
+LIMIT = {"limit"}           # of single trays: `only`, `forbid`
 ONE_FIELD = {"field", "figure"}
 SUMS = {"number", "constant"}
 SORTS = {
-    "expression: implied": QUESTIONS, "expression: qualified": QUESTIONS, "compared: nearness": QUESTIONS, "compared: EVERY nearness": QUESTIONS,
-    "compared: additive MOD additive comparison additive": QUESTIONS, "disjunction: ors": QUESTIONS | {"values"}, "and: ands": QUESTIONS, "not: NOT not": QUESTIONS,
+    "expression: implied": QUESTIONS | LIMIT, "expression: qualified": QUESTIONS, "compared: nearness": QUESTIONS, "compared: EVERY nearness": QUESTIONS,
+    "compared: additive MOD additive comparison additive": QUESTIONS, "disjunction: ors": QUESTIONS | LIMIT | {"values"}, "and: ands": QUESTIONS | LIMIT, "not: NOT not": QUESTIONS | LIMIT,
     "compared: comparable": QUESTIONS, "compared: comparable comparison additive": QUESTIONS,
     "compared: additive IN additive DOTS additive": QUESTIONS,
     "additive: additive PLUS term": SUMS, "additive: additive DASH term": SUMS, "term: term STAR signed": SUMS,
     "term: term SLASH signed": SUMS, "signed: DASH signed": SUMS,
     "primary: NAME": QUESTIONS | SUMS | {"values", "bound"}, "primary: NAME OPEN call_args CLOSE": QUESTIONS | {"number"},
-    "primary: head_number": SUMS | {"values"}, "primary: TRAYS": {"number"}, "primary: OPEN expression CLOSE": QUESTIONS | SUMS,
+    "primary: head_number": SUMS | {"values"}, "primary: TRAYS": {"number"}, "primary: OPEN expression CLOSE": QUESTIONS | LIMIT | SUMS,
     "primary: SUM OPEN tray_sum region CLOSE": {"number"}, "primary: SUM OPEN tray_sum OF expression region CLOSE": {"number"},
     "primary: BEGINNING": {"part"}, "primary: END": {"part"}, "primary: OPTIONAL OPEN expression CLOSE": {"part"},
     "primary: NEIGHBOUR OPEN parts CLOSE": QUESTIONS | {"neighbour"},
@@ -109,6 +110,8 @@ for head in ("TRAY OPEN specifier CLOSE", "ANY", "SYMMETRIC primary", "MANY OPEN
              "EVERY names IN NAME OPEN expression CLOSE", "EVERY OPEN expression COMMA expression CLOSE",
              "DISTANCE OPEN FROM expression COMMA TO expression COMMA BY expression CLOSE"):
     SORTS["primary: " + head] = QUESTIONS
+for head in ("TRAY OPEN specifier CLOSE", "ANY"):
+    SORTS["primary: " + head] = QUESTIONS | LIMIT
 
 # How often a production is chosen where that is not 1. What the grammar takes only in order to say better what is wrong with it is rare.
 MISTAKE = .04
@@ -304,6 +307,8 @@ CONTEXTS = {
     "cond_atom: operand IN range": condition_sides((0, "variable"), (2, "constant")),
     "cond_atom: operand MOD constant comparison operand": condition_sides((0, "variable"), (2, "divisor"), (4, "constant")),
     "tray_atom: NAME NAME": lambda maker, place: {0: place.but(want="zone"), 1: place.but(want="exact", text="depth")},
+    "forbid: forbid_word expression": lambda maker, place: {1: place.but(sort="limit")},
+    "forbid: only_word expression": lambda maker, place: {1: place.but(sort="limit")},
     "number_case: tray_sum": lambda maker, place: {0: place.but(sort="figure", want="figure")},
     "number_case: tray_sum WHERE TRAY OPEN specifier CLOSE": lambda maker, place: {0: place.but(sort="figure", want="figure")},
     "total_field: NAME": lambda maker, place: {0: place.but(want="measured")},
@@ -556,8 +561,8 @@ def body(maker, depth, place):
     share = .2 if place.item == "schema of houses" else 1        # a file about houses is about other things
     if maker.chance(.5 * share):
         more.append(maker.make("number_item", 3, inside.but(text=place.scope.fresh(maker.random, "beds"), sort="figure", want="figure")))
-    if maker.chance(.3 * share):
-        more.append(maker.make("forbid", 3, inside))
+    for _ in range(maker.random.choice([0, 0, 0, 1, 1, 2]) if maker.chance(share) else 0):
+        more.append(maker.make("forbid", 4, inside))
     return listed(maker.grammar, "body", fields + more)
 
 

@@ -62,11 +62,13 @@ class Schema:
         if before and set(before.numbers) & set(self.numbers):
             raise Unknown("a number with more cases")
         self.numbers.update(before.numbers if before else {})
-        self.forbidden = (before.forbidden if before else []) + [f.child("specifier") for f in find_all(body, "forbid")]
-        if None in self.forbidden:
-            raise Unknown("what is forbidden is more than a specifier")
+        self.limits = (before.limits if before else []) + find_all(body, "forbid")
         every = itertools.product(*[values for _, _, values in self.fields])
-        self.trays = [t for t in every if not any(self.meets(s, t, {}) for s in self.forbidden)]
+        self.trays = [t for t in every if all(self.lets_in(limit, t) for limit in self.limits)]
+
+    def lets_in(self, limit, tray):
+        """`only E`: E is so of the tray; `forbid E`: it is not."""
+        return Plan(None, self, (tray,)).M(limit.child("expression"), Env(), 0, 1) == (limit.child("only_word") is not None)
 
     def _field(self, node):
         name = words(node.child("field_head"))[0]
@@ -165,6 +167,75 @@ FIGURES = {
 }
 
 
+def spec_words(node):
+    """The words and signs of a list of them."""
+    return (spec_words(node.children[0]) if len(node.children) > 1 else []) + [node.children[-1]]
+
+
+def is_group(node):
+    return node.name.startswith("spec_word: OPEN")
+
+
+def compares_sums(item, nodes):
+    """Is it a comparison of numbers of the tray, by arithmetic, or of one with another?"""
+    kinds = {name: kind for name, kind, _ in item.schema.fields} | {name: "number" for name in item.schema.numbers}
+    texts = [" ".join(words(n)) for n in nodes]
+    signs = [n for n in nodes if n.symbol == "spec_sign"] + [s for n in nodes if is_group(n) for s in find_all(n, "spec_sign")]
+    at = next((k for k, text in enumerate(texts) if text in OPERATORS), 0)
+    if signs or not at:
+        return bool(signs)
+    values = next((values for name, kind, values in item.schema.fields if name == texts[0] and kind in ("choice", "order")), [])
+    right = texts[at + 1]
+    number = kinds.get(right) in ("length", "zone", "order", "number") and right not in values
+    return texts[0][0].isdigit() or number or kinds.get(texts[0]) == "order" and right.isdigit()
+
+
+class Comparison:
+    """SUM sign SUM, read from left to right."""
+
+    def __init__(self, item, nodes):
+        self.item, self.nodes = item, list(nodes)
+
+    def text(self):
+        return " ".join(words(self.nodes[0])) if self.nodes else None
+
+    def holds(self):
+        left = self.sum()
+        how = OPERATORS[" ".join(words(self.nodes.pop(0)))]
+        return how(left, self.sum())
+
+    def sum(self):
+        value = self.term()
+        while self.text() in ("+", "-"):
+            value = operator.add(value, self.term()) if words(self.nodes.pop(0)) == ["+"] else operator.sub(value, self.term())
+        return value
+
+    def term(self):
+        value = self.atom()
+        while self.text() in ("*", "/"):
+            value = value * self.atom() if words(self.nodes.pop(0)) == ["*"] else divided(value, self.atom())
+        return value
+
+    def atom(self):
+        node = self.nodes.pop(0)
+        text = " ".join(words(node))
+        if text == "-":
+            return -self.atom()
+        if is_group(node):
+            inner = spec_words(node.child("spec_alternatives").child("spec_alternative").child("spec_words"))
+            return Comparison(self.item, inner).sum()
+        if text[0].isdigit():
+            return constant(text)
+        given = self.item.values.get(text)
+        if given and given[0] == AS_WRITTEN and given[1][0].isdigit():
+            return constant(given[1])
+        if given and given[0] != AS_WRITTEN:
+            raise Unknown("a bound value in a sum")
+        if self.text() == "depth":
+            self.nodes.pop(0)
+        return self.item.schema.named_figure(given[1] if given else text, self.item.tray)
+
+
 class Item:
     """One item of `tray(...)`: alternatives of words, which are about one field."""
 
@@ -175,11 +246,13 @@ class Item:
         return self.any_of(item.child("spec_alternatives"))
 
     def any_of(self, alternatives):
-        return any([self.one(find_all(a, "spec_word")) for a in find_all(alternatives, "spec_alternative")])
+        return any([self.one(spec_words(a.child("spec_words"))) for a in find_all(alternatives, "spec_alternative")])
 
     def one(self, nodes):
         """[field] [depth] [not] value, or a comparison"""
         texts = [" ".join(words(n)) for n in nodes]
+        if texts[0] == "not" and compares_sums(self, nodes[1:]) or compares_sums(self, nodes):
+            return not Comparison(self, nodes[1:]).holds() if texts[0] == "not" else Comparison(self, nodes).holds()
         if texts[0] in [n for n, kind, _ in self.schema.fields if kind != "flag"] + list(self.schema.numbers):
             self.field, nodes, texts = texts[0], nodes[1:], texts[1:]
         if texts and texts[0] == "not":

@@ -280,6 +280,7 @@ static void leave_out_illegal(tn_check *check, tn_checked_schema *schema, tn_che
     trays->count = kept ? kept : trays->count > 0;
 }
 
+/* What the items say together: one specifier, or any of several, and what is asked of numbers besides. */
 static void set_spec(tn_check *check, tn_ast_expr *tray, tn_tray_set set, tn_ast_list written)
 {
     tn_checked_schema *schema = tray->spec->schema;
@@ -300,13 +301,14 @@ static void set_spec(tn_check *check, tn_ast_expr *tray, tn_tray_set set, tn_ast
         tray->spec = trays.boxes[0];
         return;
     }
-    tn_ast_expr *either = tray_of(check, NULL, span);
+    tn_ast_expr *either = tray->tests.first ? tray_of(check, NULL, span) : tray;
     if (!either)
         return;
     either->kind = TN_EXPR_OR;
     for (size_t i = 0; i < trays.count; i++)
         either->parts = tn_ast_append(either->parts, tray_of(check, trays.boxes[i], span));
-    tray->tests = tn_ast_append(tray->tests, either);
+    if (either != tray)
+        tray->tests = tn_ast_append(tray->tests, either);
 }
 
 bool tn_check_sums_of_tray(tn_check *check, tn_ast_expr *tray)
