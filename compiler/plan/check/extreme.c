@@ -116,7 +116,9 @@ static bool add_legal(void *context, const uint8_t *values)
 static bool collect_legal(tn_check *check, tn_checked_schema *schema, const tn_ast_expr *figure, numbers *all)
 {
     tn_choice_set set = tn_legal_set(check, schema);
-    if (set == TN_CHOICE_LOST || tn_choices_count(schema->choices, set) > TRAYS_MAX)
+    uint64_t trays = 0;
+    check->out_of_memory |= set != TN_CHOICE_LOST && !tn_choices_count(schema->choices, set, &trays);
+    if (set == TN_CHOICE_LOST || trays > TRAYS_MAX)
         return false;
     of_legal legal = {.schema = schema, .figure = figure, .all = all, .good = true};
     mpq_init(legal.number);
@@ -161,6 +163,7 @@ tn_checked_extreme *tn_extreme_values(tn_check *check, tn_ast_expr *extreme)
     if (extreme->numbers || !extreme->figure_good)
         return extreme->numbers;
     numbers all = {.items = malloc(VALUES_MAX * sizeof *all.items)};
+    check->out_of_memory |= !all.items;
     if (!all.items)
         return NULL;
     if (!collect(check->schema, extreme->figure, &all) && !collect_legal(check, check->schema, extreme->figure, &all)) {
