@@ -171,9 +171,12 @@ tn_choice_set tn_choices_not(tn_choice_diagram *choices, tn_choice_set set)
 
 static tn_choice_set keep_join(tn_choice_diagram *choices, uint64_t pair, tn_choice_set made)
 {
+    size_t count = choices->joined.count; /* first the room, so that every pair that is known has its join */
+    if (made == TN_CHOICE_LOST ||
+        !tn_array_reserve(&choices->joins, &choices->join_capacity, count, 1, sizeof *choices->joins))
+        return TN_CHOICE_LOST;
     uint32_t number = tn_number(&choices->joined, pair);
-    if (made == TN_CHOICE_LOST || number == UINT32_MAX ||
-        !tn_array_reserve(&choices->joins, &choices->join_capacity, number, 1, sizeof *choices->joins))
+    if (number == UINT32_MAX)
         return TN_CHOICE_LOST;
     choices->joins[number] = made;
     return made;
@@ -247,16 +250,17 @@ static uint64_t count_from(tn_choice_diagram *choices, tn_choice_set set, uint32
     return size;
 }
 
-uint64_t tn_choices_count(tn_choice_diagram *choices, tn_choice_set set)
+bool tn_choices_count(tn_choice_diagram *choices, tn_choice_set set, uint64_t *count)
 {
     size_t needed = choices->nodes.count, before = choices->size_capacity;
     if (needed > before) {
         if (!tn_array_resize(&choices->sizes, needed, sizeof *choices->sizes))
-            return UINT64_MAX;
+            return false;
         memset(choices->sizes + before, 0, (needed - before) * sizeof *choices->sizes);
         choices->size_capacity = needed;
     }
-    return count_from(choices, set, 0);
+    *count = count_from(choices, set, 0);
+    return true;
 }
 
 bool tn_choices_first(const tn_choice_diagram *choices, tn_choice_set set, uint8_t *values)

@@ -44,8 +44,8 @@ tn_choice_set tn_choices_or(tn_choice_diagram *choices, tn_choice_set a, tn_choi
 /* What is in any of the sets, joined two by two. The array is used up. */
 tn_choice_set tn_choices_any_of(tn_choice_diagram *choices, tn_choice_set *sets, size_t count);
 
-/* How many combinations there are; UINT64_MAX: that or more. The set is not lost. */
-uint64_t tn_choices_count(tn_choice_diagram *choices, tn_choice_set set);
+/* How many combinations there are; UINT64_MAX: that or more. The set is not lost. false: out of memory. */
+bool tn_choices_count(tn_choice_diagram *choices, tn_choice_set set, uint64_t *count);
 
 /* The first combination, a value of each field; false: there is none. */
 bool tn_choices_first(const tn_choice_diagram *choices, tn_choice_set set, uint8_t *values);
@@ -54,7 +54,8 @@ bool tn_choices_first(const tn_choice_diagram *choices, tn_choice_set set, uint8
 typedef bool tn_choice_visit(void *context, const uint8_t *values);
 bool tn_choices_each(const tn_choice_diagram *choices, tn_choice_set set, tn_choice_visit *visit, void *context);
 
-/* The set as boxes that share no combination, each as the mask of one: until the function returns false. */
+/* The set as boxes that share no combination, each as the mask of one: until the function returns false. Also false
+ * where out of memory, before the first. */
 typedef bool tn_choice_box_visit(void *context, const uint64_t *mask);
 bool tn_choices_boxes(const tn_choice_diagram *choices, tn_choice_set set, tn_choice_box_visit *visit, void *context);
 

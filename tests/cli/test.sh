@@ -12,6 +12,21 @@ golden missing 'tartan test nowhere.plan'
 golden todo 'tartan test todo.plan'
 golden todo_done 'tartan test todo-done.plan'
 golden coverage 'tartan test sheds.plan --coverage --library sheds'
+cat >"$scratch/sums.plan" <<'END'
+schema row {
+  width = 1m | 2m | 3m
+  height = one < two
+  zone north = shut | open(1m, 2m)
+}
+rule long "longer than 2:1" = tray(width > 2 * north depth, height + 1 >= 3)
+library rows { trays 1..2  prune long }
+test long {
+  match  [3m two north open 1m]
+  reject [2m two north open 1m]
+  reject [3m one north open 1m]
+}
+END
+golden coverage_sums "tartan test $scratch/sums.plan --coverage"
 golden coverage_alone 'tartan test todo.plan parts.plan --coverage'
 golden coverage_library 'tartan test failing.plan --coverage 2>/dev/null'
 golden coverage_json 'tartan test todo.plan failing.plan --coverage --json 2>/dev/null'

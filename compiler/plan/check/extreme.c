@@ -96,6 +96,37 @@ static bool collect(const tn_checked_schema *schema, const tn_ast_expr *figure, 
     return good && tries < TRAYS_MAX;
 }
 
+typedef struct of_legal {
+    const tn_checked_schema *schema;
+    const tn_ast_expr *figure;
+    numbers *all;
+    mpq_t number;
+    bool good;
+} of_legal;
+
+static bool add_legal(void *context, const uint8_t *values)
+{
+    of_legal *legal = context;
+    if (tn_figure_compute(legal->schema, legal->figure, NULL, values, legal->number) == TN_FIGURE_SAYS)
+        legal->good = add_number(legal->all, legal->number);
+    return legal->good;
+}
+
+/* Where there are too many combinations of the values that it depends on: of legal trays alone. */
+static bool collect_legal(tn_check *check, tn_checked_schema *schema, const tn_ast_expr *figure, numbers *all)
+{
+    tn_choice_set set = tn_legal_set(check, schema);
+    uint64_t trays = 0;
+    check->out_of_memory |= set != TN_CHOICE_LOST && !tn_choices_count(schema->choices, set, &trays);
+    if (set == TN_CHOICE_LOST || trays > TRAYS_MAX)
+        return false;
+    of_legal legal = {.schema = schema, .figure = figure, .all = all, .good = true};
+    mpq_init(legal.number);
+    tn_choices_each(schema->choices, set, add_legal, &legal);
+    mpq_clear(legal.number);
+    return legal.good;
+}
+
 static const char *text_of(tn_check *check, const mpq_t number)
 {
     if (!tn_rational_fits(number))
@@ -132,9 +163,10 @@ tn_checked_extreme *tn_extreme_values(tn_check *check, tn_ast_expr *extreme)
     if (extreme->numbers || !extreme->figure_good)
         return extreme->numbers;
     numbers all = {.items = malloc(VALUES_MAX * sizeof *all.items)};
+    check->out_of_memory |= !all.items;
     if (!all.items)
         return NULL;
-    if (!collect(check->schema, extreme->figure, &all)) {
+    if (!collect(check->schema, extreme->figure, &all) && !collect_legal(check, check->schema, extreme->figure, &all)) {
         tn_diagnostic *d = tn_report(check->diagnostics, E_TOO_MANY, extreme->figure->node.span,
                                      "a tray can have more than %d different numbers here", VALUES_MAX);
         tn_help(check->diagnostics, d, "measure in rounder numbers, or by a field of fewer values");

@@ -176,6 +176,7 @@ tn_choice_set tn_legal_set(tn_check *check, tn_checked_schema *schema)
     schema->legal_known = true;
     schema->legal =
         boxes ? tn_choices_not(choices, tn_choices_any_of(choices, boxes, schema->forbid_count)) : TN_CHOICE_LOST;
+    check->out_of_memory |= schema->legal == TN_CHOICE_LOST && !tn_choices_full(choices);
     return schema->legal;
 }
 
@@ -234,7 +235,8 @@ bool tn_check_boxes(tn_check *check, tn_checked_schema *schema, tn_choice_set se
     *trays = (tn_checked_trays){0};
     if (!is_made(check, schema, set, span))
         return false;
-    tn_choices_boxes(schema->choices, set, count_box, &count);
+    bool few = tn_choices_boxes(schema->choices, set, count_box, &count);
+    check->out_of_memory |= !few && count <= BOXES_MAX;
     if (count > BOXES_MAX) {
         tn_diagnostic *d =
             tn_report(check->diagnostics, E_TOO_MANY, span, "this asks for trays of more than %d kinds", BOXES_MAX);
@@ -243,7 +245,9 @@ bool tn_check_boxes(tn_check *check, tn_checked_schema *schema, tn_choice_set se
     }
     trays->boxes = TN_NEW_ARRAY(check->arena, tn_checked_spec *, count + 1);
     boxing b = {check, schema, span, trays};
-    return trays->boxes && tn_choices_boxes(schema->choices, set, add_box, &b);
+    bool whole = trays->boxes && few && tn_choices_boxes(schema->choices, set, add_box, &b);
+    check->out_of_memory |= !whole;
+    return whole;
 }
 
 /* ---- specifiers of rules */

@@ -79,6 +79,7 @@ static bool find_in_set(tn_check *check, const tn_checked_spec *a, const tn_chec
     if (a)
         set = tn_choices_and(schema->choices, set, tn_choices_box(schema->choices, a->mask));
     set = tn_choices_and(schema->choices, set, wanted ? second : tn_choices_not(schema->choices, second));
+    check->out_of_memory |= set == TN_CHOICE_LOST && !tn_choices_full(schema->choices);
     return set != TN_CHOICE_LOST && tn_choices_first(schema->choices, set, values);
 }
 
@@ -348,6 +349,7 @@ static bool find_uncovered(tn_check *check, tn_checked_schema *schema, const tn_
             tn_choice_set box = tn_choices_box(schema->choices, number->cases[i].boxes[k]->mask);
             rest = tn_choices_and(schema->choices, rest, tn_choices_not(schema->choices, box));
         }
+    check->out_of_memory |= rest == TN_CHOICE_LOST && !(schema->choices && tn_choices_full(schema->choices));
     memset(values, 0, schema->field_count);
     return rest == TN_CHOICE_LOST || tn_choices_first(schema->choices, rest, values);
 }

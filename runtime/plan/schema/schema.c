@@ -191,8 +191,9 @@ static tn_status number_legal(tn_schema *schema, tn_choice_diagram *choices, uin
         tn_error_help(error, "name fewer values, or fewer fields, or forbid trays by fewer fields at once");
         return TN_LIMIT;
     }
-    uint64_t trays = tn_choices_count(choices, legal), bytes = bytes_of_tray(schema);
-    uint64_t room = TN_SCHEMA_BYTES_MAX / bytes;
+    uint64_t trays, room = TN_SCHEMA_BYTES_MAX / bytes_of_tray(schema);
+    if (!tn_choices_count(choices, legal, &trays))
+        return tn_fail_memory(error);
     if (trays > max_trays || trays > room)
         return too_many(schema, max_trays < room ? max_trays : room, error);
     schema->tray_values = malloc((size_t)trays * schema->field_count + 1);

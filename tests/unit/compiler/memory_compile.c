@@ -74,6 +74,31 @@ static void compile_with_failures(const char *path, const char *text, bool is_go
     }
 }
 
+/* What is said of single trays, in a schema of few combinations and in one of many. */
+static void test_trays(void **state)
+{
+    (void)state;
+    static const char few[] =
+        "schema s { w = 1m | 2m | 3m  h = one < two  zone z = full(1m, 2m) | none\n"
+        "  number n = 2 where tray(w > 2 * z) | 1 where tray(h * 1m < w) | 0\n"
+        "  only tray(z none) or tray(w / z >= 1, z not none)  forbid not tray(n > h) and tray(one, 3m) }\n"
+        "rule r = tray(w + z > 2 * w - 1m, n >= 1, not h * 1m > z)\n"
+        "library l { trays 1..2 prune r }\n";
+    static const char many[] = "schema s { a = flag b = flag c = flag d = flag e = flag f = flag g = flag h = flag i = "
+                               "flag j = flag k = flag\n"
+                               "  l = flag m = flag n = flag o = flag p = flag q = flag r = flag s = flag t = flag\n"
+                               "  number u = 2 where tray(a) | 1 where tray(b) | 0 where tray(not a)\n"
+                               "  only tray(c, d, e, f, g, h, i, j, k, l, m, n, o, p, q) and tray(r) }\n"
+                               "rule x = every tray(a, s) beside tray(b, t) and max(u) >= 1\n"
+                               "library y { trays 1..2 require x }\n";
+    static const char wrong[] = "schema s { w = 1m | 2m  zone z = full(1m) | none  only tray(w / z > 1) }\n"
+                                "schema t { w = 1m | 2m  only tray(w > 3m - w) and not tray(2m) }\n"
+                                "schema u { w = 1m  only r  forbid quantity(any) > 1 }\nrule r = tray(w > )\n";
+    compile_with_failures("few.plan", few, true);
+    compile_with_failures("many.plan", many, true);
+    compile_with_failures("wrong.plan", wrong, false);
+}
+
 static void test_good_source(void **state)
 {
     (void)state;
@@ -256,13 +281,10 @@ static void test_automata(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_good_source),
-        cmocka_unit_test(test_bad_source),
-        cmocka_unit_test(test_schema_made_from_another),
-        cmocka_unit_test(test_params),
-        cmocka_unit_test(test_other_notations),
-        cmocka_unit_test(test_resolved_source),
-        cmocka_unit_test(test_reference_engine),
+        cmocka_unit_test(test_good_source),     cmocka_unit_test(test_trays),
+        cmocka_unit_test(test_bad_source),      cmocka_unit_test(test_schema_made_from_another),
+        cmocka_unit_test(test_params),          cmocka_unit_test(test_other_notations),
+        cmocka_unit_test(test_resolved_source), cmocka_unit_test(test_reference_engine),
         cmocka_unit_test(test_automata),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
