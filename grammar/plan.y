@@ -60,7 +60,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token <word> AREA "an area" HOUSE "a house"
 %token USE "`use`" SCHEMA "`schema`" RULE "`rule`" LIBRARY "`library`" TEST "`test`"
 %token USING "`using`" FROM "`from`" ALLOW "`allow`" AS "`as`" BY "`by`" TO "`to`" OF "`of`"
-%token ZONE "`zone`" FLAG "`flag`" FORBID "`forbid`" ROLE "`role`"
+%token ZONE "`zone`" FLAG "`flag`" FORBID "`forbid`" ONLY "`only`" ROLE "`role`"
 %token TRAYS "`trays`" TOTAL "`total`" REQUIRE "`require`" PRUNE "`prune`" GENERATE "`generate`" WEIGHT "`weight`" PREFER "`prefer`" WORTH "`worth`"
 %token TODO "`todo`" MATCH "`match`" REJECT "`reject`" KEEP "`keep`" DROP "`drop`"
 %token TRAY "`tray`" ANY "`any`" AND "`and`" OR "`or`" NOT "`not`"
@@ -91,7 +91,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <field> field_head
 %type <rule> rule_head
 %type <library> library_head
-%type <word> doc role using from constant operand spec_word literal_word clause_name expectation positive worth
+%type <word> doc role using from constant operand spec_word spec_sign literal_word clause_name expectation positive worth
 %type <list> expectations items values ordered depths allow names clauses clause prunes requires preferences cases clause_names trays words
 %type <list> specifier spec_items spec_alternatives spec_words parts total_field
 %type <list> by_kinds walk_by
@@ -233,6 +233,7 @@ number_case
 
 zone: ZONE                                      { yyerrok; };
 forbid_word: FORBID                             { yyerrok; };
+only_word: ONLY                                 { yyerrok; };
 
 field_head
     : FIELD_NAME doc role                       { $$ = (tn_ast_field){.name = $1, .doc = $2, .role = $3}; yyerrok; }
@@ -270,7 +271,8 @@ depths
     ;
 
 forbid
-    : forbid_word TRAY OPEN specifier CLOSE     { $$ = tn_ast_forbid_new(parse, @$, $4); }
+    : forbid_word expression                    { $$ = tn_ast_forbid_new(parse, @$, $2, false); }
+    | only_word expression                      { $$ = tn_ast_forbid_new(parse, @$, $2, true); }
     ;
 
 /* ---- tray specifiers: what the words of an item mean depends on the schema, so they are kept as they stand */
@@ -300,7 +302,17 @@ spec_alternative
 
 spec_words
     : spec_word                                 { $$ = tn_ast_one($1); }
+    | spec_sign                                 { $$ = tn_ast_one($1); }
     | spec_words spec_word                      { $$ = tn_ast_append($1, $2); }
+    | spec_words spec_sign                      { $$ = tn_ast_append($1, $2); }
+    ;
+
+/* Of sums that are compared: `width > 2 * body depth`. */
+spec_sign
+    : PLUS                                      { $$ = tn_ast_sign(parse, @$); }
+    | DASH                                      { $$ = tn_ast_sign(parse, @$); }
+    | STAR                                      { $$ = tn_ast_sign(parse, @$); }
+    | SLASH                                     { $$ = tn_ast_sign(parse, @$); }
     ;
 
 spec_word
@@ -1073,7 +1085,8 @@ static bool is_rare(const tn_parse *parse, yysymbol_kind_t kind, int before)
 {
     bool named_range = kind == YYSYMBOL_DOTS && before == TN_PLAN_NAME;
     bool order = kind == YYSYMBOL_LESS && parse->mode == TN_LEX_SCHEMA;
-    return named_range || order;
+    bool sign = (parse->mode == TN_LEX_TRAY || parse->mode == TN_LEX_PATTERN || parse->in_tray) && (kind == YYSYMBOL_PLUS || kind == YYSYMBOL_DASH || kind == YYSYMBOL_STAR || kind == YYSYMBOL_SLASH);
+    return named_range || order || sign;
 }
 
 static int yyreport_syntax_error(const yypcontext_t *context, tn_parse *parse, void *scanner)

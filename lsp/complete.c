@@ -331,7 +331,8 @@ static void complete_library(lsp_cursor *c)
 static void complete_schema(lsp_cursor *c)
 {
     bool role = c->count > 0 && cursor_is(c, c->count - 1, "role");
-    offer_words(c, role ? TN_AT(ROLE) : TN_AT(SCHEMA) | TN_AT(FIELD));
+    bool limit = cursor_is(c, c->clause, "only") || cursor_is(c, c->clause, "forbid");
+    offer_words(c, role ? TN_AT(ROLE) : TN_AT(SCHEMA) | TN_AT(FIELD) | (limit ? TN_AT(LIMIT) : 0));
 }
 
 static void complete_test(lsp_cursor *c)

@@ -491,7 +491,7 @@ static void use_item(tn_index *index, const tn_ast_top *item)
         const index_about about = {own_symbol(index, &item->node), NULL};
         index_use(index, &index->schemas, schema->from);
         for (TN_EACH(const tn_ast_forbid, forbid, schema->body.forbids))
-            use_specifier(index, &about, forbid->tray);
+            index_expression(index, &about, forbid->expr);
     } else if (item->kind == TN_ITEM_RULE || item->kind == TN_ITEM_MEASURE) {
         const tn_ast_rule *rule = (const tn_ast_rule *)item;
         index_use(index, &index->schemas, rule->using);

@@ -84,6 +84,7 @@ tartan_unit(genome LINKS driver/open runtime/genome/breeding runtime/genome/boxe
 tartan_unit(place LINKS driver/open driver/place runtime/place runtime/place/count runtime/place/search)
 tartan_unit(house LINKS driver/open runtime/house/export runtime/house/schedule runtime/house/rank)
 tartan_unit(automata LINKS runtime/plan/schema)
+tartan_unit(choices LINKS runtime/plan/schema)
 tartan_unit(plan/schema LINKS runtime/plan/schema)
 tartan_unit(plan/match LINKS driver/open runtime/plan/match)
 tartan_unit(plan/text LINKS runtime/plan/text)

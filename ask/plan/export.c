@@ -17,7 +17,7 @@ typedef struct exporting {
     const tn_export_request *request;
     const tn_module *module;
     tn_schema *schema;
-    uint32_t rule;
+    uint32_t rule, library; /* of a program: TN_NO_RECORD where several are meant */
     tn_buffer text;
 } exporting;
 
@@ -72,13 +72,20 @@ static tn_status export_regex(exporting *e, tn_error *error)
 /* The rule asked for, and the schema: the rule's, the library's, or the only one. */
 static tn_status choose(tn_session *session, exporting *e, uint32_t *schema)
 {
-    uint32_t library;
     if (e->request->as == TN_EXPORT_PROLOG)
-        return tn_schema_choose(session->opened, e->request->subject.library, schema, &library);
+        return tn_schema_choose(session->opened, e->request->subject.library, schema, &e->library);
     tn_status status = tn_rule_choose(session->opened, e->request->rule, &e->rule);
     if (status == TN_OK)
         *schema = e->module->RULE_records[e->rule].schema;
     return status;
+}
+
+static tn_status export_prolog(exporting *e, tn_error *error)
+{
+    tn_prolog_options options = {.fetch = e->request->fetch};
+    if (e->library < e->module->LIBRARY_count)
+        options.library = tn_text(e->module, e->module->LIBRARY_records[e->library].name);
+    return tn_export_prolog(e->schema, &options, &e->text, error);
 }
 
 /* A program says the values with which it is one. */
@@ -91,7 +98,7 @@ static bool put_params(const tn_opened *opened, tn_buffer *text)
 
 static tn_status export_rules(tn_session *session, const tn_export_request *request, tn_reply *answer)
 {
-    exporting e = {.request = request, .module = session->opened->module};
+    exporting e = {.request = request, .module = session->opened->module, .library = TN_NO_RECORD};
     bool prolog = request->as == TN_EXPORT_PROLOG;
     uint32_t schema;
     tn_error error;
@@ -102,7 +109,7 @@ static tn_status export_rules(tn_session *session, const tn_export_request *requ
     if (status == TN_OK && prolog && !put_params(session->opened, &e.text))
         status = tn_fail_memory(&error);
     if (status == TN_OK)
-        status = prolog ? tn_export_prolog(e.schema, &e.text, &error) : export_regex(&e, &error);
+        status = prolog ? export_prolog(&e, &error) : export_regex(&e, &error);
     status = status == TN_OK
                  ? tn_export_give(session, prolog ? TN_FILE_PROLOG : TN_FILE_OTHER, e.text.data, e.text.size, answer)
                  : tn_session_fail(session, &error);
@@ -131,6 +138,8 @@ static tn_status check_rules(tn_session *session, const tn_export_request *r, co
                                  r->as == TN_EXPORT_KIT ? "kit" : "init", path);
     if (r->model && r->as != TN_EXPORT_PCFG)
         return tn_session_refuse(session, NULL, "--model is for --pcfg");
+    if (r->fetch && r->as != TN_EXPORT_PROLOG)
+        return tn_session_refuse(session, NULL, "--fetch is for --prolog");
     if (r->as == TN_EXPORT_REGEX && !r->rule)
         return tn_session_refuse(session, NULL, "a pattern is of one rule: --rule NAME");
     if (r->as == TN_EXPORT_PROLOG && r->rule)

@@ -77,12 +77,21 @@ static char *source_of(const showing *s, uint32_t file, uint32_t begin, uint32_t
 
 static tn_status set_forbidden(const showing *s, const tn_schema_record *from, tn_shown_schema *to, tn_error *error)
 {
+    const tn_sources *sources = &s->opened->compilation.sources;
+    const tn_spec_record *before = NULL;
     tn_status status = TN_OK;
     for (uint32_t i = 0; status == TN_OK && i < from->forbid_count; i++) {
         const tn_spec_record *spec = &s->module->SPEC_records[from->forbid_first + i];
-        const uint32_t word = sizeof "forbid" - 1; /* which the stretch begins with */
-        if (spec->file < s->opened->compilation.sources.count)
-            status = tn_owneds_add(&to->forbidden, source_of(s, spec->file, spec->begin + word, spec->end), error);
+        bool known = spec->file < sources->count && spec->begin < sources->files[spec->file].size;
+        bool again = before && before->file == spec->file && before->begin == spec->begin; /* a line may be several */
+        before = spec;
+        if (!known || again)
+            continue;
+        char first = sources->files[spec->file].text[spec->begin];
+        bool only = first == 'o' || first == 'O';
+        uint32_t word = only ? sizeof "only" - 1 : sizeof "forbid" - 1; /* which the stretch begins with */
+        status = tn_owneds_add(only ? &to->only : &to->forbidden,
+                               source_of(s, spec->file, spec->begin + word, spec->end), error);
     }
     return status;
 }

@@ -12,7 +12,7 @@
 typedef struct export_settings {
     tn_settings common;
     tn_plan_settings plans;
-    bool prolog, regex, pcfg;
+    bool prolog, regex, pcfg, fetch;
     tn_option_list rules;
     const char *output, *model, *kit, *init;
 } export_settings;
@@ -65,6 +65,7 @@ static tn_export_request request_of(const export_settings *s, bool drawn)
                                                 : TN_EXPORT_PROLOG,
                                .subject = tn_job_asked(&s->plans),
                                .rule = s->rules.count ? s->rules.items[0] : NULL,
+                               .fetch = s->fetch,
                                .model = s->model,
                                .drawn = {.path = drawn ? s->common.operands.items[0] : NULL},
                                .init = s->init,
@@ -110,6 +111,8 @@ static int run(const tn_command *command, const tn_settings *common)
 #define SETTINGS export_settings
 static const tn_option options[] = {
     FLAG("prolog", 0, prolog, "write a Prolog program: a predicate for each rule, and keep_plan and prune_plan"),
+    FLAG("fetch", 0, fetch,
+         "with --prolog: also fetch(Tray, Field, Value) and prune_plan(Trays), as the rules of the paper are written"),
     FLAG("regex", 0, regex, "write a POSIX extended regular expression over one letter for each class of trays"),
     FLAG("pcfg", 0, pcfg,
          "write a model of a kit, or one that was drawn, as a connection grammar, which places the same parts"),

@@ -29,6 +29,8 @@ static void write_schema(const tn_shown_schema *schema, FILE *out)
         write_field(&schema->fields.items[i], width, out);
     for (size_t i = 0; i < schema->forbidden.count; i++)
         fprintf(out, "  forbid %s\n", schema->forbidden.items[i]);
+    for (size_t i = 0; i < schema->only.count; i++)
+        fprintf(out, "  only %s\n", schema->only.items[i]);
 }
 
 static void write_library(const tn_shown_library *library, FILE *out)

@@ -145,7 +145,7 @@ static size_t field_name(const tn_format *format, size_t first)
     return is_word(format, first, TN_AT(SCHEMA), TN_AS_HEAD) ? first + 1 : first;
 }
 
-static void put_forbid(tn_format *format, size_t first, size_t last)
+static void put_limit(tn_format *format, size_t first, size_t last)
 {
     tn_format_put(format, first, 0);
     tn_layout_spaces(&format->layout, 1);
@@ -181,8 +181,8 @@ static void put_fields(tn_format *format, const size_t *starts, size_t count)
     }
     for (size_t i = 0; i < count; i++) {
         tn_layout_line(&format->layout, BODY);
-        if (tn_format_is(format, starts[i], "forbid"))
-            put_forbid(format, starts[i], starts[i + 1]);
+        if (tn_format_is(format, starts[i], "forbid") || tn_format_is(format, starts[i], "only"))
+            put_limit(format, starts[i], starts[i + 1]);
         else
             put_field(format, starts[i], starts[i + 1], widest[field_name(format, starts[i]) > starts[i]]);
     }

@@ -318,17 +318,25 @@ static void change_counted(tn_change_walk *walk, tn_ast_expr *sum)
     walk->in.depth--;
 }
 
-static void change_sign(tn_change_walk *walk, tn_ast_expr *expr)
+const char *tn_change_other_sign(tn_operator op, tn_operator *other)
 {
     static const struct {
         tn_operator op;
         const char *sign;
-    } other[] = {
+    } others[] = {
         [TN_LESS] = {TN_AT_MOST, "<="},    [TN_AT_MOST] = {TN_LESS, "<"},      [TN_EQUAL] = {TN_EQUAL, NULL},
         [TN_UNEQUAL] = {TN_UNEQUAL, NULL}, [TN_GREATER] = {TN_AT_LEAST, ">="}, [TN_AT_LEAST] = {TN_GREATER, ">"},
     };
-    if (other[expr->op].sign && offer(walk, TN_CHANGE_COMPARED, &expr->node, other[expr->op].sign))
-        expr->op = other[expr->op].op;
+    *other = others[op].op;
+    return others[op].sign;
+}
+
+static void change_sign(tn_change_walk *walk, tn_ast_expr *expr)
+{
+    tn_operator other;
+    const char *sign = tn_change_other_sign(expr->op, &other);
+    if (sign && offer(walk, TN_CHANGE_COMPARED, &expr->node, sign))
+        expr->op = other;
 }
 
 /* A comparison of two sums, or of one with a range. */

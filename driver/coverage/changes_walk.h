@@ -27,6 +27,9 @@ bool tn_change_offer(tn_change_walk *walk, tn_rule_change_kind kind, tn_span spa
 /* Offers a bound a step lower and a step higher: what a NUMBER or LENGTH word says. */
 void tn_change_bound(tn_change_walk *walk, const tn_ast_word **word);
 
+/* The sign that differs where both sides are the same, `<=` for `<`, and its operator; NULL: no such sign. */
+const char *tn_change_other_sign(tn_operator op, tn_operator *other);
+
 /* Is it a word that tn_change_bound changes? */
 static inline bool tn_change_is_bound(const tn_ast_word *word)
 {

@@ -212,8 +212,61 @@ static void change_word(item_words *item, tn_ast_alternative *alternative, tn_as
     change_name(walk, owner, word);
 }
 
+/* ---- sums that are compared */
+
+static bool has_sign(const tn_ast_alternative *alternative)
+{
+    for (TN_EACH(const tn_ast_word, word, alternative->words)) {
+        if (word->kind == TN_WORD_SIGN)
+            return true;
+        for (TN_EACH(const tn_ast_alternative, inner, word->group ? word->group->alternatives : tn_ast_empty()))
+            if (has_sign(inner))
+                return true;
+    }
+    return false;
+}
+
+/* Does it compare numbers of the tray with one another, `width > body`, or come to one by arithmetic? */
+static bool compares_sums(const item_words *item, const tn_ast_alternative *alternative)
+{
+    const tn_ast_word *first = (const tn_ast_word *)alternative->words.first, *op = NULL;
+    while (first && first->kind == TN_WORD_NOT)
+        first = (const tn_ast_word *)first->node.next;
+    for (TN_EACH(const tn_ast_word, word, alternative->words))
+        op = word->kind == TN_WORD_OPERATOR ? word : op;
+    const tn_ast_word *right = op ? (const tn_ast_word *)op->node.next : NULL;
+    const tn_field_record *field =
+        first && first->kind == TN_WORD_NAME ? field_named(item->walk, first->text) : item->field;
+    bool number = right && right->kind == TN_WORD_NAME && !(field && has_value(item->walk, field, right->text));
+    bool turned = op && first->kind != TN_WORD_NAME && first != op;
+    return has_sign(alternative) || number || turned;
+}
+
+/* The sign of the comparison, and the plain numbers in it: other lengths would most often change nothing. */
+static void change_sums(tn_change_walk *walk, tn_ast_alternative *alternative)
+{
+    for (TN_EACH(tn_ast_word, word, alternative->words)) {
+        tn_operator other;
+        const char *sign = word->kind == TN_WORD_OPERATOR ? tn_change_other_sign(word->op, &other) : NULL;
+        const tn_ast_word *number = word;
+        if (sign && tn_change_offer(walk, TN_CHANGE_COMPARED, alternative->node.span, sign))
+            word->op = other;
+        if (word->kind == TN_WORD_NUMBER) {
+            tn_change_bound(walk, &number);
+            word->value = number->value;
+            word->text = number->text;
+        }
+        for (TN_EACH(tn_ast_alternative, inner, word->group ? word->group->alternatives : tn_ast_empty()))
+            change_sums(walk, inner);
+    }
+}
+
 static void change_words(item_words *item, tn_ast_alternative *alternative)
 {
+    if (compares_sums(item, alternative)) {
+        change_sums(item->walk, alternative);
+        return;
+    }
     item->fill = NULL;
     for (TN_EACH(tn_ast_word, word, alternative->words)) {
         if (item->walk->made || item->walk->failed)

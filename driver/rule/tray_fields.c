@@ -80,10 +80,28 @@ static uint32_t field_of_name(const tn_schema *schema, const tn_ast_word *word)
     return owner_of(schema, word->text);
 }
 
+/* Does an item compare numbers of the tray with one another, `width > 2 * body`? It is about no field alone. */
+static bool compares_sums(const tn_schema *schema, const tn_ast_item *item)
+{
+    for (TN_EACH(const tn_ast_alternative, alternative, item->alternatives)) {
+        const tn_ast_word *first = first_word(alternative), *before = NULL;
+        uint32_t field = first && first->kind == TN_WORD_NAME ? tn_schema_field(schema, first->text) : UINT32_MAX;
+        for (TN_EACH(const tn_ast_word, word, alternative->words)) {
+            bool compared = before && before->kind == TN_WORD_OPERATOR && word->kind == TN_WORD_NAME;
+            bool value = field != UINT32_MAX && compared && has_value(schema, field, word->text);
+            if (word->kind == TN_WORD_SIGN || (compared && !value) ||
+                (word->group && compares_sums(schema, word->group)))
+                return true;
+            before = word;
+        }
+    }
+    return false;
+}
+
 uint32_t tn_item_field(const tn_schema *schema, const tn_ast_item *item)
 {
     const tn_ast_alternative *first = (const tn_ast_alternative *)item->alternatives.first;
-    const tn_ast_word *word = first ? first_word(first) : NULL;
+    const tn_ast_word *word = first && !compares_sums(schema, item) ? first_word(first) : NULL;
     if (!word)
         return UINT32_MAX;
     if (word->kind == TN_WORD_RANGE)

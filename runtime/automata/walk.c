@@ -105,7 +105,8 @@ static void drop_forward(tn_key_walk *walk, uint32_t layer, const tn_walk_algebr
 void tn_key_walk_clear(tn_key_walk *walk, const tn_walk_algebra *forward, const tn_walk_algebra *backward)
 {
     size_t size = walk->asked.size;
-    for (uint32_t n = 0; walk->counts && n <= walk->last; n++) {
+    bool made = walk->forward && walk->backward && walk->counts;
+    for (uint32_t n = 0; made && n <= walk->last; n++) {
         drop_forward(walk, n, forward, size);
         clear_elements(walk->backward[n], walk->backward[n] ? walk->graph->nodes(walk->graph_context, n)->count : 0,
                        size, backward);

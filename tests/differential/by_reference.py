@@ -1,11 +1,17 @@
 """Questions whose answers the brute force of reference.py works out from the file's derivation tree."""
+import random
 import re
 from collections import Counter
 from fractions import Fraction
 
-from program import Refused, json_lines, run, same
-from plan_questions import how_many, number_of
-from reference import INFINITE, UNITS, File, Unknown
+from circles import bodies, faults
+from maker import Maker
+from program import Refused, answer, json_lines, read_json, run, same
+from plan_questions import how_many, number_of, outcomes
+from reference import INFINITE, UNITS, File, Unknown, of_rules
+from tree import Text, find_all, wrapped
+
+MATCHED = 300            # no more plans than this are asked by both engines
 
 
 def plans_by_reference(subject):
@@ -22,6 +28,7 @@ def plans_by_reference(subject):
     same("count by length", {d["length"]: int(d["kept"]) for d in subject.counts["by_length"] if int(d["kept"])}, dict(lengths))
     answered(lambda: weights_by_reference(subject, file, kept))
     answered(lambda: preferences_by_reference(subject, file, kept))
+    answered(lambda: generated_by_reference(subject, file, kept))
     for rule in subject.rules():
         answered(lambda: rule_by_reference(subject, file, kept, rule))
     for measure in subject.measures() if kept else []:
@@ -40,8 +47,94 @@ def answered(ask):
 
 
 def rule_by_reference(subject, file, kept, rule):
-    want = sum(plan.holds(file.rule(rule)[1]) for plan in kept)
+    want = sum(plan.meets(rule) for plan in kept)
     same("--where", subject.where(rule), want)
+    lined = lines_of_all(subject, file)
+    lined = [(line, plan) for line, plan in lined if line][::len(lined) // MATCHED + 1]
+    matched = "".join("01"[plan.meets(rule)] for _, plan in lined)
+    plans = subject.file("every.plans", "".join(line + "\n" for line, _ in lined))
+    for engine in ("vm", "dfa") if lined else ():
+        try:
+            got = answer("match", subject.path, plans, "--rule", rule, "--format", "bits", "--engine", engine)
+        except Refused:
+            if engine == "vm":
+                raise
+            continue
+        same(f"match --engine={engine}", got.replace("\n", ""), matched)
+
+
+def lines_of_all(subject, file):
+    """(line, plan) of all plans of the library's lengths, whatever it keeps. They are listed in the order in which the reference makes them."""
+    lengths = file.lengths(subject.item.name)
+    every = subject.edited(f"\nlibrary every-plan using {subject.using()} {{\n  trays {lengths[0]}..{lengths[-1]}\n}}\n")
+    lines = answer("enumerate", every, "--library", "every-plan").split("\n")[:-1]
+    return list(zip(lines, file.plans(subject.item.name), strict=True))
+
+
+def generated_by_reference(subject, file, kept):
+    """What `explain` says of plans that a library generates, and of others: how far these go along with plans that it generates."""
+    clause = file.generate(subject.item.name)
+    if clause is None:
+        return
+    lined = lines_of_all(subject, file)
+    generated = {plan.trays for _, plan in lined if file.generates(plan, clause)}
+    starts = {trays[:n] for trays in generated for n in range(len(trays) + 1)}
+    tray_lines = {plan.trays[0]: line for line, plan in lined if plan.n == 1}
+    those = {plan.trays for plan in kept}
+    chosen, dropped = random.Random(subject.text), []
+    for group in ([p for p in lined if p[0] and p[1].trays in generated], [p for p in lined if p[0] and p[1].trays not in generated]):
+        for line, plan in chosen.sample(group, min(len(group), 4)):
+            explained = subject.json("explain", line)
+            said = next(c for c in explained["clauses"] if c["kind"] == "generate")
+            made = plan.trays in generated
+            same("explain keeps", explained["kept"], plan.trays in those)
+            same("explain says whether it is generated", (said["matches"], said["drops"]), (made, not made))
+            if not made:
+                dropped.append((line, said["name"]))
+            if "beginning" in said:
+                n = max((n for n in range(plan.n + 1) if plan.trays[:n] in starts), default=0)
+                then = {trays[n] for trays in starts if len(trays) == n + 1 and trays[:n] == plan.trays[:n]}
+                beginning = said["beginning"]
+                same("how far it goes", (beginning["trays"], beginning["may_end"], beginning["follows"]), (n, plan.trays[:n] in generated, len(then)))
+                if all(t in tray_lines for t in then):
+                    same("what may follow", set(beginning["then"]), {tray_lines[t] for t in then})
+            else:
+                same("explain says how far a plan goes, if it is not generated and others are", made or not generated, True)
+    tests = "".join(f"  drop [{line}] by {name}\n" for line, name in dropped)
+    tested = subject.edited(f"\ntest {subject.item.name} {{\n{tests}}}\n")
+    if run("check", "--no-analysis", tested)[0] == 0:           # else a plan line is none in a test
+        passed, failed = outcomes(subject.path)
+        same("dropped by what generates", outcomes(tested), (passed + len(dropped), failed))
+
+
+def circles_by_reference(kind):
+    def circles_by_reference(subject):
+        """No rule of an accepted file uses itself as it may not; and of further rules that do, those are refused that may not."""
+        if subject.tree is None:
+            return
+        same("circles of rules that are accepted", {wrong for wrong in faults(of_rules(find_all(subject.tree, "item"))).values() if wrong}, set())
+        schemas = subject.source.of("schema")
+        if not schemas:
+            return
+        maker = Maker(kind.grammar, kind.notation, random.Random(subject.text))
+        for _ in range(4):
+            names = [f"circle-{n}" for n in range(maker.random.choice([1, 1, 2, 3]))]
+            made = bodies(maker, lambda: leaf(maker), names, .7)
+            heads = "".join(f"\nrule {name} using {schemas[0].name} = {Text(body, {}).text}" for name, body in made)
+            wrong = {min(circle): what for circle, what in faults({name: ([], body) for name, body in made}).items()}
+            code, _, err = run("check", subject.edited(heads), "--no-analysis", "--diagnostics=json")
+            found = [d for d in read_json("check --diagnostics=json", err or "[]") if d["severity"] == "error"]
+            same("circles that are refused", (heads, {d["code"] for d in found}, len(found)),
+                 (heads, {"E0406"} if any(wrong.values()) else set(), sum(map(bool, wrong.values()))))
+    return circles_by_reference
+
+
+def leaf(maker):
+    """A question that knows no names."""
+    node = maker.node("primary: ANY")
+    if maker.chance(.3):
+        node = maker.node("primary: MANY OPEN expression CLOSE", wrapped(maker.grammar, "expression", node))
+    return wrapped(maker.grammar, "expression", node)
 
 
 def preferences_by_reference(subject, file, kept):

@@ -53,7 +53,7 @@ def meaning(path):
     listing = answer("disasm", path)
     listing = re.sub(r" *\([^\s()]*\.[a-z]+:\d+(:\d+)?\)|^(module|written by|source | *;).*$", "", listing, flags=re.M)
     listing = "\n".join(re.sub(r"\s", "", line) for line in listing.split("\n") if line.strip())
-    return re.sub(r"(require|prune|weight|prefer)@\d+(\.\d+)?", r"\1@", listing)
+    return re.sub(r"(require|prune|generate|weight|prefer)@\d+(\.\d+)?", r"\1@", listing)
 
 
 def scattered(subject):

@@ -1,6 +1,6 @@
 """Files about houses: a schema with zones, a library of plans, a form, libraries and measures of houses."""
 import plans
-from plans import AVAILABLE, CONTEXTS, NAMED, QUESTIONS, SORTS, WEIGHTS, Place, add, add_rules, library, name, pick
+from plans import AVAILABLE, CONTEXTS, LIMIT, NAMED, QUESTIONS, SORTS, WEIGHTS, Place, add, add_rules, library, name, pick
 from scope import Form, Scope, form_clause
 from tree import Node, listed, wrapped
 
@@ -31,7 +31,7 @@ FORM_CLAUSES = {
 CELLS = {"counted", "cells"}
 SORTS["primary: CELL OPEN specifier CLOSE"] = QUESTIONS | CELLS
 SORTS["primary: ROOM OPEN specifier CLOSE"] = QUESTIONS | {"counted"}
-SORTS["primary: TRAY OPEN specifier CLOSE"] = SORTS["primary: ANY"] = QUESTIONS | {"counted"}
+SORTS["primary: TRAY OPEN specifier CLOSE"] = SORTS["primary: ANY"] = QUESTIONS | LIMIT | {"counted"}
 
 
 # ---- contexts

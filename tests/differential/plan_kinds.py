@@ -2,7 +2,7 @@
 import houses
 import plans
 from by_house_reference import houses_by_reference
-from by_reference import plans_by_reference
+from by_reference import circles_by_reference, plans_by_reference
 from kind import Kind
 from plan_questions import OF_FILES, OF_LIBRARIES, QUICK, PlanSubject
 from source import read_source
@@ -28,6 +28,7 @@ class PlanKind(Kind):
     def questions(self, path):
         libraries = [item.name for item in read_source(path).of("library")]
         always = [(q, name) for q in QUICK + [plans_by_reference, houses_by_reference] for name in libraries]
+        always.append((circles_by_reference(self), None))
         return always, [(q, None) for q in OF_FILES] + [(q, name) for name in libraries for q in OF_LIBRARIES]
 
 

@@ -348,10 +348,11 @@ def backwards(line):
 
 
 def clause_lines(subject):
-    """(kind, line number) of the clauses that stand alone on their lines, or None where the library has others."""
+    """(kind, line number) of the clauses that stand alone on their lines, or None where the library has others. `generate` is a requirement."""
     block = subject.source.by_name[subject.item.name].text
     begin = subject.source.text[:subject.source.text.index(block)].count("\n")
-    found = [(m[1], begin + i) for i, line in enumerate(block.split("\n")) if (m := re.match(r"\s+(require|prune)\b", line))]
+    found = [(m[1].replace("generate", "require"), begin + i) for i, line in enumerate(block.split("\n"))
+             if (m := re.match(r"\s+(require|prune|generate)\b", line))]
     named = [r for r in subject.counts["requirements"] if not r["name"].startswith("total")] + subject.counts["rules"]
     return found if len(found) == len(named) and not subject.item.older else None
 

@@ -1,9 +1,10 @@
 """What plan files are about, beside their grammar: which kinds of parts go together, and which names can stand where."""
 from dataclasses import dataclass, replace
 
+import circles
 import specifiers
 from maker import Notation
-from scope import Field, Scope, body_fields, merged
+from scope import Field, Rule, Scope, body_fields, merged
 from tree import Node, listed, wrapped
 
 DOCS = ['"a doc"', '"it\'s a \\"quoted\\" word"', '"größer \\\\ 5\'"', '""']
@@ -41,6 +42,7 @@ class Place:
     around: bool = False             # whether a `where` says of which stretch what lies before and behind is counted
     argument: tuple = ()             # what the parameters of a call are
     several: bool = False            # whether the file has more than one schema
+    longer: bool = False             # whether trays are of few kinds and plans longer: what repeats needs them
     before: tuple = None             # of a `let`: those that stand before it, so that few stand for one another in a circle
 
     def but(self, **changes):
@@ -69,17 +71,18 @@ class Place:
 
 PARENTHESES = {"primary: OPEN expression CLOSE"}
 QUESTIONS = {"rule", "part"}
+LIMIT = {"limit"}           # of single trays: `only`, `forbid`
 ONE_FIELD = {"field", "figure"}
 SUMS = {"number", "constant"}
 SORTS = {
-    "expression: implied": QUESTIONS, "expression: qualified": QUESTIONS, "compared: nearness": QUESTIONS, "compared: EVERY nearness": QUESTIONS,
-    "compared: additive MOD additive comparison additive": QUESTIONS, "disjunction: ors": QUESTIONS | {"values"}, "and: ands": QUESTIONS, "not: NOT not": QUESTIONS,
+    "expression: implied": QUESTIONS | LIMIT, "expression: qualified": QUESTIONS, "compared: nearness": QUESTIONS, "compared: EVERY nearness": QUESTIONS,
+    "compared: additive MOD additive comparison additive": QUESTIONS, "disjunction: ors": QUESTIONS | LIMIT | {"values"}, "and: ands": QUESTIONS | LIMIT, "not: NOT not": QUESTIONS | LIMIT,
     "compared: comparable": QUESTIONS, "compared: comparable comparison additive": QUESTIONS,
     "compared: additive IN additive DOTS additive": QUESTIONS,
     "additive: additive PLUS term": SUMS, "additive: additive DASH term": SUMS, "term: term STAR signed": SUMS,
     "term: term SLASH signed": SUMS, "signed: DASH signed": SUMS,
     "primary: NAME": QUESTIONS | SUMS | {"values", "bound"}, "primary: NAME OPEN call_args CLOSE": QUESTIONS | {"number"},
-    "primary: head_number": SUMS | {"values"}, "primary: TRAYS": {"number"}, "primary: OPEN expression CLOSE": QUESTIONS | SUMS,
+    "primary: head_number": SUMS | {"values"}, "primary: TRAYS": {"number"}, "primary: OPEN expression CLOSE": QUESTIONS | LIMIT | SUMS,
     "primary: SUM OPEN tray_sum region CLOSE": {"number"}, "primary: SUM OPEN tray_sum OF expression region CLOSE": {"number"},
     "primary: BEGINNING": {"part"}, "primary: END": {"part"}, "primary: OPTIONAL OPEN expression CLOSE": {"part"},
     "primary: NEIGHBOUR OPEN parts CLOSE": QUESTIONS | {"neighbour"},
@@ -107,13 +110,15 @@ for head in ("TRAY OPEN specifier CLOSE", "ANY", "SYMMETRIC primary", "MANY OPEN
              "EVERY names IN NAME OPEN expression CLOSE", "EVERY OPEN expression COMMA expression CLOSE",
              "DISTANCE OPEN FROM expression COMMA TO expression COMMA BY expression CLOSE"):
     SORTS["primary: " + head] = QUESTIONS
+for head in ("TRAY OPEN specifier CLOSE", "ANY"):
+    SORTS["primary: " + head] = QUESTIONS | LIMIT
 
 # How often a production is chosen where that is not 1. What the grammar takes only in order to say better what is wrong with it is rare.
 MISTAKE = .04
 WEIGHTS = {
     "implied: implied IMPLIES disjunction": MISTAKE, "implied: implied WHERE disjunction": MISTAKE,
     "qualified: qualified WHERE disjunction": MISTAKE, "qualified: qualified IMPLIES disjunction": MISTAKE,
-    "nearness: nearness BESIDE additive": MISTAKE, "nearness: nearness WITHIN additive OF additive": MISTAKE,
+    "nearness: nearness BESIDE additive": .1, "nearness: nearness WITHIN additive OF additive": .15,
     "expression: qualified": .2, "compared: nearness": .15, "compared: EVERY nearness": .15, "region: BEFORE": .8, "region: AFTER": .8,
     "compared: additive MOD additive comparison additive": .15, "compared: comparable comparison additive": MISTAKE,
     "cond_atom: compare comparison operand": MISTAKE, "range: constant DASH constant": MISTAKE, "value: NUMBER doc role": MISTAKE,
@@ -134,6 +139,7 @@ WEIGHTS = {
     "range: constant": .3, "part: ELLIPSIS": .2, "item: use STRING": 2, "pattern_tray: spec_items": 2,
     "any_case: todo_word case": .3, "item: param NAME doc EQUAL additive IN additive DOTS additive": .2, "literal_word: ABSENT": .2, "literal_word: OF_DEPTH": MISTAKE, "value: ELLIPSIS": MISTAKE,
     "specifier: %empty": .05, "plan: OPEN_BRACKET HOUSE CLOSE_BRACKET": MISTAKE, "clause: require_word requires": 3, "clause: prune_word prunes": 3,
+    "call_arg: additive DOTS additive": MISTAKE, "call_arg: additive DOTS": MISTAKE, "primary: NAME OPEN call_args CLOSE": 1.5,
     "clause: allow_word names": .2, "clause: weight_word expression positive": .5, "clause: prefer_word preferences": .6, "preferences: preferences COMMA preference": .5, "clause: weight_word expression": MISTAKE, "positive: LENGTH": .1, "positive: AREA": .1, "clause: trays_word range": MISTAKE, "clause_name: CLAUSE_NAME": .5,
     "prunes: prunes COMMA prune": .5, "requires: requires COMMA require": .5,
     "case: expectations plan STRING BY clause_names": .3, "case: expectations plan BY clause_names doc": .3,
@@ -235,6 +241,12 @@ def own_call(maker, place):
     return {0: place.but(want="exact", text="values" if number else "mirrored"), 2: place.but(argument=tuple(f"field {f.name}" for f in fields))}
 
 
+def repeated(maker, place):
+    """So many side by side; in a neighbour also none."""
+    least = int(place.sort != "part" or maker.chance(.5)) if not maker.chance(MISTAKE) else 0
+    return {0: place.but(want="exact", text="repeat"), 2: place.but(argument=("rule", f"times {least}"))}
+
+
 def quantified(maker, place):
     fields = place.fields("length", "choice")
     if not fields:
@@ -246,6 +258,10 @@ def quantified(maker, place):
 
 
 def call(maker, place):
+    if place.want == "repeat":
+        return repeated(maker, place.but(want=None))
+    if place.sort in QUESTIONS and maker.chance(.2 if place.form else .55):
+        return repeated(maker, place)
     own = place.fields("length", "choice", "order", "flag", "zone") and (place.sort == "number" or maker.chance(.4) or not place.rules(True))
     if own:
         return own_call(maker, place)
@@ -291,11 +307,14 @@ CONTEXTS = {
     "cond_atom: operand IN range": condition_sides((0, "variable"), (2, "constant")),
     "cond_atom: operand MOD constant comparison operand": condition_sides((0, "variable"), (2, "divisor"), (4, "constant")),
     "tray_atom: NAME NAME": lambda maker, place: {0: place.but(want="zone"), 1: place.but(want="exact", text="depth")},
+    "forbid: forbid_word expression": lambda maker, place: {1: place.but(sort="limit")},
+    "forbid: only_word expression": lambda maker, place: {1: place.but(sort="limit")},
     "number_case: tray_sum": lambda maker, place: {0: place.but(sort="figure", want="figure")},
     "number_case: tray_sum WHERE TRAY OPEN specifier CLOSE": lambda maker, place: {0: place.but(sort="figure", want="figure")},
     "total_field: NAME": lambda maker, place: {0: place.but(want="measured")},
     "total_field: NAME NAME": lambda maker, place: {0: place.but(want="zone"), 1: place.but(want="exact", text="depth")},
     "prune: expression AS NAME doc": lambda maker, place: {2: place.but(want="exact", text=place.scope.fresh(maker.random, "clause"))},
+    "clause: generate_word require": lambda maker, place: {1: place.but(want="generate")},
     "clause: weight_word expression positive": lambda maker, place: {2: place.but(want="positive", dimension=0)},
     "worth: WORTH positive": lambda maker, place: {1: place.but(want="positive", dimension=0)},
     "preference: expression worth AS NAME doc": lambda maker, place: {3: place.but(want="exact", text=place.scope.fresh(maker.random, "liked"))},
@@ -412,7 +431,7 @@ TOKENS = {
     "DECIMAL": lambda maker, place: maker.random.choice(["0.5", "1.25", "40%"]),
     "STRING": lambda maker, place: maker.random.choice(DOCS),
     "FIELD_NAME": lambda maker, place: place.text or "width",
-    "CLAUSE_NAME": lambda maker, place: maker.random.choice(["require@2", "prune@3"]),
+    "CLAUSE_NAME": lambda maker, place: maker.random.choice(["require@2", "prune@3", "generate@4"]),
     "HOUSE": lambda maker, place: "- ; -",
 }
 
@@ -471,7 +490,7 @@ def as_part(maker, primary):
 def arguments(maker, depth, place):
     """One for each parameter, of its kind."""
     made = [argument(maker, depth - 1, place.but(argument=()), kind) for kind in place.argument]
-    return listed(maker.grammar, "call_args", made) if made else None
+    return listed(maker.grammar, "call_args", [wrapped(maker.grammar, "call_arg", node) for node in made]) if made else None
 
 
 def argument(maker, depth, place, kind):
@@ -480,12 +499,52 @@ def argument(maker, depth, place, kind):
         for production in reversed(maker.grammar.chain("expression", "primary")):
             node = Node(production.head, production, [node])
         return node
+    if kind.startswith("times "):
+        return times(maker, place.but(sort="constant", dimension=0), int(kind[6:]))
     if kind == "rule":
         return maker.make("expression", depth, place.but(sort="rule"))
     if kind == "number":
         return maker.make("expression", 0, place.but(sort="constant", dimension=0))
     fields = [f for f in place.fields("length", "choice") if f.name == kind]
     return maker.make("expression", 1, place.but(sort="values", dimension=1, field=fields[0] if fields else None))
+
+
+def times(maker, place, least):
+    """How often something is repeated: a number, from one to another, or that and more."""
+    low = maker.random.choice([least, least, least + 1, least + 2])
+    high = max(low, 1) + maker.random.choice([0, 1, 1, 2])
+    way = maker.random.choice(["exactly", "range", "range", "range", "and more", "and more"])
+    if way == "exactly":
+        return often(maker, place, max(low, 1))
+    if way == "range":
+        return maker.node("call_arg: additive DOTS additive", often(maker, place, low), often(maker, place, high))
+    return maker.node("call_arg: additive DOTS", often(maker, place, low))
+
+
+def often(maker, place, number):
+    """The number; now and then a name that stands for one, or a sum."""
+    names = [n for n, kind in place.params if kind == "number"]
+    if names and maker.chance(.4):
+        return wrapped(maker.grammar, "additive", maker.node("primary: NAME", maker.word("NAME", maker.random.choice(names))))
+    if maker.chance(.3 if place.lets() else .1):
+        return maker.make("additive", 1, place)
+    return constant(maker, place, str(number))
+
+
+def required(maker, depth, place):
+    """What plans are made of: a rule that uses itself, or what is repeated, so that many are."""
+    if place.want != "generate":
+        return None
+    inner = place.but(want=None, sort="rule")
+    names = [n for n in place.rules(False) if place.scope.rules[n].circle]
+    if names and maker.chance(.6):
+        expression = wrapped(maker.grammar, "expression", maker.node("primary: NAME", maker.word("NAME", maker.random.choice(names))))
+    elif maker.chance(.5):
+        made = maker.by_production(maker.grammar.production("primary: NAME OPEN call_args CLOSE"), max(depth, 2), inner.but(argument=(), want="repeat"))
+        expression = wrapped(maker.grammar, "expression", made)
+    else:
+        expression = maker.make("expression", max(depth, 2), inner)
+    return maker.node("require: expression doc", expression, maker.make("doc", 1, inner))
 
 
 def body(maker, depth, place):
@@ -502,8 +561,8 @@ def body(maker, depth, place):
     share = .2 if place.item == "schema of houses" else 1        # a file about houses is about other things
     if maker.chance(.5 * share):
         more.append(maker.make("number_item", 3, inside.but(text=place.scope.fresh(maker.random, "beds"), sort="figure", want="figure")))
-    if maker.chance(.3 * share):
-        more.append(maker.make("forbid", 3, inside))
+    for _ in range(maker.random.choice([0, 0, 0, 1, 1, 2]) if maker.chance(share) else 0):
+        more.append(maker.make("forbid", 4, inside))
     return listed(maker.grammar, "body", fields + more)
 
 
@@ -513,6 +572,8 @@ def new_fields(maker, place, older):
         return house_fields(maker, place)
     kinds = random.choice([["length"], ["length", "flag"], ["length", "choice"], ["length", "zone"], ["length", "zone", "flag"], ["choice", "zone"],
                            ["length", "choice", "flag"], ["length", "order"], ["order", "flag"]])
+    if place.longer and not older:
+        kinds = random.choice([["length"], ["choice"], ["order"], ["flag"], ["length"], ["choice"], ["length", "flag"]])
     names = {"length": "width", "flag": "open", "choice": "colour", "order": "height", "zone": "yard"}
     made = [Field(f.name, f.kind, f.values) for f in older or [] if f.kind in ("choice", "order", "zone", "length") and maker.chance(.4)][:1]
     for kind in kinds if not older else random.sample(kinds, int(not made or maker.chance(.5))):
@@ -551,7 +612,7 @@ def field(maker, place):
 
 def in_order(maker, values):
     """From the least to the greatest; now and then with a sign that does not go with the others."""
-    mixed = len(values) > 2 and maker.chance(MISTAKE)
+    mixed = len(values) > 2 and maker.chance(.12)
     if mixed and maker.chance(.5):
         first = listed(maker.grammar, "values", values[:1])
         return maker.node("ordered: values BAR value LESS value", first, values[1], values[2])
@@ -564,7 +625,7 @@ def in_order(maker, values):
 def chosen_values(maker, place, made):
     random = maker.random
     if made.kind == "length":
-        few = [1, 1, 1, 2] if place.item == "schema of houses" else [1, 2, 2, 3]
+        few = [1, 1, 1, 2] if place.item == "schema of houses" else [2, 2, 3] if place.longer else [1, 2, 2, 3]
         return random.sample(METRES if place.metric else FEET, random.choice(few))
     if made.kind == "choice":
         return random.sample(NAMES, random.choice([2, 2, 3]))
@@ -606,6 +667,8 @@ def clauses(maker, depth, place):
     """Every library of plans says first how many trays its plans have."""
     counts = [0, 0, 0, 1] if place.item == "plans of houses" else [0, 1, 1, 1, 1, 1, 1, 2] if place.form else [0, 1, 1, 2]
     made = [maker.make("clause", depth, place) for _ in range(maker.random.choice(counts))]
+    if place.longer and place.text != "from" and maker.chance(.5):
+        made.append(maker.make_of("clause: generate_word require", 2, place))
     if not place.form and place.text != "from":
         made.insert(0, maker.make_of("clause: trays_word range", 3, place))
     return listed(maker.grammar, "clauses", made)
@@ -616,6 +679,8 @@ def trays_range(maker, depth, place):
         return None
     low = maker.random.choice([0, 1, 1, 1, 2])
     high = max(low, maker.random.choice([1, 2, 2, 2, 3] if place.item == "plans of houses" else [1, 2, 2, 3]))
+    if place.longer:
+        low, high = maker.random.choice([0, 1, 1, 2, 3]), maker.random.choice([3, 4, 4, 5, 6])
     number_node = lambda n: maker.node("constant: NUMBER", maker.word("NUMBER", str(n)))
     if low == high:
         return maker.node("range: constant", number_node(low))
@@ -697,7 +762,7 @@ def settings(maker, depth, place):
     return maker.node("with: WITH settings", listed(maker.grammar, "settings", [given(maker, place, n) for n in chosen]))
 
 
-HOOKS = {"additive": alone, "comparable": side_question, "param_words": param_words, "with": settings, "primary": small_question, "parts": neighbour_parts, "call_args": arguments, "body": body, "clauses": clauses, "range": trays_range, "number_cases": number_cases, "params": params,
+HOOKS = {"additive": alone, "comparable": side_question, "param_words": param_words, "with": settings, "primary": small_question, "parts": neighbour_parts, "call_args": arguments, "require": required, "body": body, "clauses": clauses, "range": trays_range, "number_cases": number_cases, "params": params,
          "using": using, "from": older, "spec_items": specifiers.items, "literal_tray": specifiers.literal_tray}
 
 
@@ -761,7 +826,7 @@ AVAILABLE = {
     "primary: NAME": has_names,
     "role: ROLE NAME": lambda place: place.sort in ROLES,
     "primary: NAME OPEN call_args CLOSE":
-        lambda place: place.dimension == 0 and not place.form and place.fields() if place.sort == "number" else place.rules(True) or not place.form and place.fields(),
+        lambda place: place.dimension == 0 and not place.form and place.fields() if place.sort == "number" else place.rules(True) or not place.form,
     "region: BEFORE": lambda place: place.around, "region: AFTER": lambda place: place.around,
     "comparison: LESS": lambda place: place.want != "equal", "comparison: AT_MOST": lambda place: place.want != "equal",
     "comparison: AT_LEAST": lambda place: place.want != "equal", "comparison: GREATER": lambda place: place.want != "equal",
@@ -790,7 +855,7 @@ for leaf in ("TRAY OPEN specifier CLOSE", "ANY", "SUM OPEN tray_sum region CLOSE
     AVAILABLE["primary: " + leaf] = lambda place: place.counts != "houses"
 AVAILABLE["primary: SUM OPEN tray_sum OF expression region CLOSE"] = lambda place: place.counts != "houses" or place.dimension == 2
 for clause in ("trays_word range", "total_word total_field range doc", "total_word total_field comparison constant doc", "weight_word expression",
-               "weight_word expression positive", "prefer_word preferences"):
+               "weight_word expression positive", "prefer_word preferences", "generate_word require"):
     AVAILABLE["clause: " + clause] = lambda place: not place.form
 
 
@@ -851,6 +916,22 @@ def add_rules(maker, items, place, depths=(2, 3, 3, 4, 5)):
         add(maker, items, "item: measure NAME doc using EQUAL additive", random.choice([4, 4, 5, 6]), measure)
 
 
+def add_circle(maker, items, place):
+    """Rules that use themselves and one another; what else stands in them knows none of them."""
+    names = [place.scope.fresh(maker.random, "c") for _ in range(maker.random.choice([1, 1, 1, 2, 2, 3]))]
+    leaf = lambda: maker.make("expression", maker.random.choice([0, 0, 0, 1, 2]), place.but(item="rule", sort="rule"))
+    made = circles.bodies(maker, leaf, names)
+    if maker.chance(.7):
+        made.append((place.scope.fresh(maker.random, "whole"), circles.asked(maker, leaf, names)))
+    for name, body in made:
+        of = place.but(item="rule", want="exact", text=name)
+        parts = [maker.make(symbol, 1, of) for symbol in maker.grammar.production("rule_head: rule NAME params doc using allow").symbols]
+        head = Node("rule_head", maker.grammar.production("rule_head: rule NAME params doc using allow"), parts, context=of)
+        items.append(maker.node("item: rule_head EQUAL expression", head, body))
+    for name, _ in made:                                      # the last asks of them, and is as good to name
+        place.scope.rules[name] = Rule(place.about(), circle=True)
+
+
 LIBRARY = "item: library_head OPEN_BRACE clauses CLOSE_BRACE"
 
 
@@ -858,6 +939,17 @@ def library(maker, items, head, depth, place):
     made_head = maker.make_of(head, 2, place)
     made = maker.make("clauses", depth, place.but(text="from" if "FROM" in head else None))
     item = maker.node(LIBRARY, made_head, made)
+    place.scope.declare(item)
+    items.append(Node(item.symbol, item.production, item.children, context=place))
+
+
+def library_for_newer(maker, items, name, place):
+    """A library of plans of a newer schema, with the clauses of one of the older."""
+    made_using = maker.node("using: USING NAME", maker.word("NAME", place.schema))
+    head = maker.node("library_head: library NAME doc using FROM NAME", maker.make("library", 1, place),
+                      maker.word("NAME", place.scope.fresh(maker.random, "l")), maker.make("doc", 1, place), made_using, maker.word("NAME", name))
+    head = Node(head.symbol, head.production, head.children, context=place)
+    item = maker.node(LIBRARY, head, maker.make("clauses", 2, place.but(text="from")))
     place.scope.declare(item)
     items.append(Node(item.symbol, item.production, item.children, context=place))
 
@@ -872,10 +964,12 @@ def add_tests(maker, items, place):
 def make_file(maker):
     """The items of a file about plans."""
     scope, random, items = Scope(), maker.random, []
-    place = Place(scope, metric=maker.chance(.3), several=maker.chance(.25))
+    place = Place(scope, metric=maker.chance(.3), several=maker.chance(.25), longer=maker.chance(.4))
     add(maker, items, "item: schema NAME doc from OPEN_BRACE body CLOSE_BRACE", 3, place.but(item="schema"))
     schemas = list(scope.schemas)
     first = place.but(schema=schemas[0])
+    if maker.chance(.7 if place.longer else .1):
+        add_circle(maker, items, first)
     add_rules(maker, items, first)
     library(maker, items, "library_head: library NAME doc using", random.choice([2, 3]), first.but(item="library"))
     if place.several:
@@ -883,6 +977,8 @@ def make_file(maker):
         newer = place.but(schema=list(scope.schemas)[-1])
         add_rules(maker, items, newer)
         library(maker, items, "library_head: library NAME doc using", 2, newer.but(item="library"))
+        if maker.chance(.4):
+            library_for_newer(maker, items, random.choice([n for n, l in scope.libraries.items() if l.schema == schemas[0]]), newer.but(item="library"))
     if maker.chance(.3):
         library(maker, items, "library_head: library NAME doc using FROM NAME", 2, first.but(item="library"))
     add_tests(maker, items, first)

@@ -62,9 +62,13 @@ class Schema:
         if before and set(before.numbers) & set(self.numbers):
             raise Unknown("a number with more cases")
         self.numbers.update(before.numbers if before else {})
-        self.forbidden = (before.forbidden if before else []) + [f.child("specifier") for f in find_all(body, "forbid")]
+        self.limits = (before.limits if before else []) + find_all(body, "forbid")
         every = itertools.product(*[values for _, _, values in self.fields])
-        self.trays = [t for t in every if not any(self.meets(s, t, {}) for s in self.forbidden)]
+        self.trays = [t for t in every if all(self.lets_in(limit, t) for limit in self.limits)]
+
+    def lets_in(self, limit, tray):
+        """`only E`: E is so of the tray; `forbid E`: it is not."""
+        return Plan(None, self, (tray,)).M(limit.child("expression"), Env(), 0, 1) == (limit.child("only_word") is not None)
 
     def _field(self, node):
         name = words(node.child("field_head"))[0]
@@ -163,6 +167,75 @@ FIGURES = {
 }
 
 
+def spec_words(node):
+    """The words and signs of a list of them."""
+    return (spec_words(node.children[0]) if len(node.children) > 1 else []) + [node.children[-1]]
+
+
+def is_group(node):
+    return node.name.startswith("spec_word: OPEN")
+
+
+def compares_sums(item, nodes):
+    """Is it a comparison of numbers of the tray, by arithmetic, or of one with another?"""
+    kinds = {name: kind for name, kind, _ in item.schema.fields} | {name: "number" for name in item.schema.numbers}
+    texts = [" ".join(words(n)) for n in nodes]
+    signs = [n for n in nodes if n.symbol == "spec_sign"] + [s for n in nodes if is_group(n) for s in find_all(n, "spec_sign")]
+    at = next((k for k, text in enumerate(texts) if text in OPERATORS), 0)
+    if signs or not at:
+        return bool(signs)
+    values = next((values for name, kind, values in item.schema.fields if name == texts[0] and kind in ("choice", "order")), [])
+    right = texts[at + 1]
+    number = kinds.get(right) in ("length", "zone", "order", "number") and right not in values
+    return texts[0][0].isdigit() or number or kinds.get(texts[0]) == "order" and right.isdigit()
+
+
+class Comparison:
+    """SUM sign SUM, read from left to right."""
+
+    def __init__(self, item, nodes):
+        self.item, self.nodes = item, list(nodes)
+
+    def text(self):
+        return " ".join(words(self.nodes[0])) if self.nodes else None
+
+    def holds(self):
+        left = self.sum()
+        how = OPERATORS[" ".join(words(self.nodes.pop(0)))]
+        return how(left, self.sum())
+
+    def sum(self):
+        value = self.term()
+        while self.text() in ("+", "-"):
+            value = operator.add(value, self.term()) if words(self.nodes.pop(0)) == ["+"] else operator.sub(value, self.term())
+        return value
+
+    def term(self):
+        value = self.atom()
+        while self.text() in ("*", "/"):
+            value = value * self.atom() if words(self.nodes.pop(0)) == ["*"] else divided(value, self.atom())
+        return value
+
+    def atom(self):
+        node = self.nodes.pop(0)
+        text = " ".join(words(node))
+        if text == "-":
+            return -self.atom()
+        if is_group(node):
+            inner = spec_words(node.child("spec_alternatives").child("spec_alternative").child("spec_words"))
+            return Comparison(self.item, inner).sum()
+        if text[0].isdigit():
+            return constant(text)
+        given = self.item.values.get(text)
+        if given and given[0] == AS_WRITTEN and given[1][0].isdigit():
+            return constant(given[1])
+        if given and given[0] != AS_WRITTEN:
+            raise Unknown("a bound value in a sum")
+        if self.text() == "depth":
+            self.nodes.pop(0)
+        return self.item.schema.named_figure(given[1] if given else text, self.item.tray)
+
+
 class Item:
     """One item of `tray(...)`: alternatives of words, which are about one field."""
 
@@ -173,11 +246,13 @@ class Item:
         return self.any_of(item.child("spec_alternatives"))
 
     def any_of(self, alternatives):
-        return any([self.one(find_all(a, "spec_word")) for a in find_all(alternatives, "spec_alternative")])
+        return any([self.one(spec_words(a.child("spec_words"))) for a in find_all(alternatives, "spec_alternative")])
 
     def one(self, nodes):
         """[field] [depth] [not] value, or a comparison"""
         texts = [" ".join(words(n)) for n in nodes]
+        if texts[0] == "not" and compares_sums(self, nodes[1:]) or compares_sums(self, nodes):
+            return not Comparison(self, nodes[1:]).holds() if texts[0] == "not" else Comparison(self, nodes).holds()
         if texts[0] in [n for n, kind, _ in self.schema.fields if kind != "flag"] + list(self.schema.numbers):
             self.field, nodes, texts = texts[0], nodes[1:], texts[1:]
         if texts and texts[0] == "not":
@@ -254,9 +329,14 @@ class Plan:
 
     def __init__(self, file, schema, trays):
         self.file, self.schema, self.trays, self.n, self.memo, self._back = file, schema, trays, len(trays), {}, None
+        self.least = {}                                   # of circles of rules: (which, name, i, j) that are true
 
     def holds(self, e):
         return self.H(e, Env(), 0, self.n)
+
+    def meets(self, name):
+        """Does a match of the rule lie in the plan?"""
+        return rule_holds(self, name, "H", 0, self.n)
 
     def remember(self, how, which, e, env, i, j):
         key = (which, id(e), env, i, j)
@@ -276,6 +356,27 @@ class Plan:
 
     def one(self, e, env, t):
         return self.M(e, env, t, t + 1)
+
+    def in_circle(self, which, name, i, j):
+        """Of rules that use themselves: the least that they say of one another. At first all are false, then what they say with that is
+        true, for as long as more becomes so."""
+        circle = self.file.circles[name]
+        if circle not in self.least:
+            known, self.least[circle] = self.memo, frozenset()
+            every = [(w, n, a, b) for w in "MH" for n in circle for a in range(self.n + 1) for b in range(a, self.n + 1)]
+            try:
+                while True:
+                    self.memo = {}
+                    found = frozenset(k for k in every if getattr(self, k[0])(self.file.rules[k[1]][1], Env(), k[2], k[3]))
+                    if found == self.least[circle]:
+                        break
+                    self.least[circle] = found
+            except Unknown:
+                del self.least[circle]
+                raise
+            finally:
+                self.memo = known
+        return (which, name, i, j) in self.least[circle]
 
     @property
     def back(self):
@@ -355,6 +456,7 @@ def neighbour(plan, e, env, i, j):
         else:
             optional = x.name == "primary: OPTIONAL OPEN expression CLOSE"
             inner = x.children[2] if optional else x
+            optional = optional or is_repeat(plan, x) and times(plan, x, env)[0] == 0
             cuts = {(b, True) for a, _ in cuts for b in range(a + 1, j + 1) if plan.M(inner, env, a, b)} | (cuts if optional else set())
     return (j, True) in cuts
 
@@ -391,6 +493,30 @@ def sum_of(plan, e, env, i, j):
 
 def many(plan, e, env, i, j):
     return i < j and all(plan.one(e.children[2], env, t) for t in range(i, j))
+
+
+def is_repeat(plan, e):
+    return e.name == "primary: NAME OPEN call_args CLOSE" and e.children[0].text == "repeat" and not plan.file.has_params("repeat")
+
+
+def times(plan, e, env):
+    """(at least, at most or None) of a `repeat`."""
+    often = core(find_all(e.child("call_args"), "call_arg")[1])
+    ends = [c for c in often.children if c.symbol == "additive"] if "DOTS" in often.name else [often, often]
+    numbers = [plan.value(end, env) for end in ends]
+    return numbers[0], numbers[1] if len(numbers) == 2 else None
+
+
+def repeat(plan, e, env, i, j):
+    """Stretches side by side: after each further one these may end there."""
+    inner = find_all(e.child("call_args"), "call_arg")[0]
+    low, high = times(plan, e, env)
+    ends, number = {i}, 0
+    while ends and (high is None or number < high):
+        ends, number = {b for a in ends for b in range(a + 1, j + 1) if plan.M(inner, env, a, b)}, number + 1
+        if number >= low and j in ends:
+            return True
+    return False
 
 
 def distance(plan, e, env, i, j):
@@ -528,26 +654,34 @@ def named(which):
         given = env.get(name)
         if given is not None:
             return getattr(plan, which)(given[0], given[1], i, j)
-        return getattr(plan, which)(plan.file.rule(name)[1], Env(), i, j)
+        return rule_holds(plan, name, which, i, j)
     return matches
+
+
+def rule_holds(plan, name, which, i, j):
+    if name in plan.file.circles:
+        return plan.in_circle(which, name, i, j)
+    return getattr(plan, which)(plan.file.rule(name)[1], Env(), i, j)
 
 
 def own_fields(plan, e, env):
     """The fields that `values` or `mirrored` is about; None where the file has a rule of that name."""
-    if e.children[0].text not in ("values", "mirrored") or plan.file.rules.get(e.children[0].text, ([],))[0]:
+    if e.children[0].text not in ("values", "mirrored") or plan.file.has_params(e.children[0].text):
         return None
-    named = [words(a)[0] for a in find_all(e.child("call_args"), "expression")]
+    named = [words(a)[0] for a in find_all(e.child("call_args"), "call_arg")]
     named = [env.get(n)[1] if env.get(n) else n for n in named]
     return [plan.schema.index(n) for n in named]
 
 
 def called(which):
     def matches(plan, e, env, i, j):
+        if is_repeat(plan, e):
+            return (repeat if which == "M" else somewhere)(plan, e, env, i, j)
         fields = own_fields(plan, e, env)
         if fields is not None:
             return all(plan.trays[i + t][f] == plan.trays[j - 1 - t][f] for t in range(j - i) for f in fields)
         params, body = plan.file.rule(e.children[0].text)
-        arguments = find_all(e.child("call_args"), "expression")
+        arguments = find_all(e.child("call_args"), "call_arg")
         inner = Env((name, plan.file.argument(plan, a, kind, env)) for (name, kind), a in zip(params, arguments))
         return getattr(plan, which)(body, inner, i, j)
     return matches
@@ -724,6 +858,27 @@ CONDITIONS["cond_ands: cond_ands AND cond_not"] = CONDITIONS["cond_ands: cond_no
 
 # ---- a file
 
+def names_used(node):
+    """The names that may be rules."""
+    if node.name in ("primary: NAME", "primary: NAME OPEN call_args CLOSE"):
+        return {node.children[0].text}.union(*map(names_used, node.children))
+    return set().union(*map(names_used, node.children))
+
+
+def of_rules(items):
+    """{name: (names of its parameters, expression)}"""
+    heads = [(item.child("rule_head"), item.child("expression")) for item in items if item.production.symbols[0] == "rule_head"]
+    return {head.child("NAME").text: (words(head.child("params"))[1:-1:2], body) for head, body in heads}
+
+
+def circles(uses):
+    """{name: the names of its circle} of those that use themselves, also by way of others."""
+    reached = {name: used & set(uses) for name, used in uses.items()}
+    for _ in uses:
+        reached = {name: used.union(*(reached[n] for n in used)) for name, used in reached.items()}
+    return {name: frozenset(n for n in used if name in reached[n]) for name, used in reached.items() if name in used}
+
+
 class File:
     """What a file says about one of its schemas."""
 
@@ -736,13 +891,16 @@ class File:
         self.rules, self.sums, self.libraries, self.sides = {}, {}, {}, {}
         for item in self.items:
             self._declare(item)
+        self.rules.update(of_rules(self.items))
+        self.circles = circles({name: used for name, (params, body) in self.rules.items() for used in [names_used(body) - set(params)]})
+
+    def has_params(self, name):
+        """Is it a rule that has parameters? Such a one hides what the language has itself."""
+        return bool(self.rules.get(name, ([],))[0])
 
     def _declare(self, item):
         kind = item.production.symbols[0]
-        if kind == "rule_head":
-            head = item.child("rule_head")
-            self.rules[head.child("NAME").text] = (words(head.child("params"))[1:-1:2], item.child("expression"))
-        elif kind == "param" and item.child("param_words"):
+        if kind == "param" and item.child("param_words"):
             self.sides[item.child("NAME").text] = words(item.child("param_words"))[0]
         elif kind in ("measure", "let", "param"):
             self.sums[item.child("NAME").text] = item.child("additive") or item.child("expression")
@@ -807,11 +965,20 @@ class File:
         kind = clause.production.symbols[0]
         if kind == "require_word":
             return all(plan.holds(r.children[0]) for r in find_all(clause, "require"))
+        if kind == "generate_word":
+            return self.generates(plan, clause)
         if kind == "prune_word":
             return not any(plan.holds(p.children[0]) for p in find_all(clause, "prune"))
         if kind == "total_word":
             return self.total(plan, clause)
         return True
+
+    def generates(self, plan, clause):
+        return plan.M(clause.child("require").children[0], Env(), 0, plan.n)
+
+    def generate(self, name):
+        """The clause that says what plans are made of, or None."""
+        return next((c for c in self.clauses(name) if c.production.symbols[0] == "generate_word"), None)
 
     def preferences(self, name):
         """(expression, worth) of those of the library."""

@@ -16,6 +16,7 @@ class Field:
 class Rule:
     about: str                                  # a schema or a form
     params: list = default(default_factory=list)
+    circle: bool = False                        # it uses itself
 
 
 @dataclass

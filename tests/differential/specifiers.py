@@ -6,6 +6,9 @@ from tree import Node, listed
 OPERATORS = {"<": "LESS", "<=": "AT_MOST", "=": "EQUAL", "!=": "UNEQUAL", ">=": "AT_LEAST", ">": "GREATER"}
 
 
+SIGNS = {"+": "PLUS", "-": "DASH", "*": "STAR", "/": "SLASH"}
+
+
 def token_of(text):
     if re.fullmatch(r"\d+(\.\d+)?(sf|m2|ft2)", text):
         return "AREA"
@@ -19,6 +22,8 @@ def spec_word(maker, text):
         return maker.node("spec_word: comparison", maker.node("comparison: " + OPERATORS[text]))
     if text == "not":
         return maker.node("spec_word: NOT")
+    if text in SIGNS:
+        return maker.node("spec_sign: " + SIGNS[text])
     if ":" in text:
         return maker.node("spec_word: NUMBER COLON NUMBER", *[maker.word("NUMBER", n) for n in text.split(":")])
     if ".." in text:
@@ -54,7 +59,29 @@ def items(maker, depth, place):
     if not fields:
         return None
     some = maker.random.sample(fields, maker.random.choice([1] * 3 + [min(2, len(fields))]))
-    return listed(maker.grammar, "spec_items", [item(maker, ASKED[f.kind](maker, f, place), place) for f in some])
+    asked = [ASKED[f.kind](maker, f, place) for f in some]
+    compared = of_sums(maker, fields) if maker.chance(.15) else None
+    return listed(maker.grammar, "spec_items", [item(maker, alternatives, place) for alternatives in ([compared] if compared else []) + asked[:2 - bool(compared)]])
+
+
+def of_sums(maker, fields):
+    """A comparison of numbers of the tray; None where it has too few. What no tray can be is refused, and mended."""
+    random = maker.random
+    lengths, plain = [f for f in fields if f.kind in ("length", "zone")], [f for f in fields if f.kind in ("order", "number")]
+    op = random.choice(list(OPERATORS))
+    name = lambda f: [f.name] + ["depth"] * (f.kind == "zone" and random.random() < .5)
+    made = []
+    if len(lengths) > 1:
+        f, g = random.sample(lengths, 2)
+        one = random.choice([v for f in lengths if f.kind == "length" for v in f.values] or ["2'"])
+        made += [[*name(f), op, *name(g)], [*name(f), op, "2", "*", *name(g)], [*name(f), "+", *name(g), op, one], [one, op, *name(f), "-", *name(g)],
+                 [group(maker, [[*name(f), "-", *name(g)]]), "*", "2", op, one], ["not", *name(f), op, *name(g)]]
+    if plain:
+        f, g = random.choice(plain), random.choice(plain)
+        made += [[f.name, "*", "2", op, g.name, "+", "1"], ["2", op, f.name]] + [[f.name, op, "2"]] * (f.kind == "order")
+    if not made:
+        return None
+    return random.sample(made, 1) if random.random() < .8 or len(made) < 2 else random.sample(made, 2)
 
 
 # ---- one field: a list of alternatives, each a list of words

@@ -164,7 +164,7 @@ static void export_regex(const tn_schema *schema, uint32_t function)
 static void export_prolog(const tn_schema *schema)
 {
     tn_buffer text = {0};
-    tn_export_prolog(schema, &text, NULL);
+    tn_export_prolog(schema, &(tn_prolog_options){.fetch = true}, &text, NULL);
     free(text.data);
 }
 

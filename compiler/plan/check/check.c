@@ -181,10 +181,11 @@ tn_status tn_check_program(tn_arena *arena, tn_diagnostics *diagnostics, const t
     check.in_schema = true;
     for (size_t i = 0; i < result->schema_count && !tn_arena_failed(arena); i++)
         tn_check_schema(&check, result->schemas[i]);
-    for (size_t i = 0; i < result->schema_count && !tn_arena_failed(arena); i++)
-        tn_check_forbids(&check, result->schemas[i]);
-    for (size_t i = 0; i < result->schema_count && !tn_arena_failed(arena); i++)
-        tn_check_numbers(&check, result->schemas[i]);
+    static void (*const of_schemas[])(tn_check *, tn_checked_schema *) = {tn_check_numbers, tn_check_forbids,
+                                                                          tn_check_covered};
+    for (size_t k = 0; k < sizeof of_schemas / sizeof *of_schemas; k++)
+        for (size_t i = 0; i < result->schema_count && !tn_arena_failed(arena); i++)
+            of_schemas[k](&check, result->schemas[i]);
     check.in_schema = false;
     static void (*const steps[])(tn_check *) = {
         tn_check_settings, check_lets,          tn_check_forms,    find_schemas,        tn_check_older_measures,
@@ -192,5 +193,9 @@ tn_status tn_check_program(tn_arena *arena, tn_diagnostics *diagnostics, const t
         tn_check_tests,    tn_check_allowances, tn_check_settable, tn_check_list_params};
     for (size_t i = 0; i < sizeof steps / sizeof *steps && !tn_arena_failed(arena); i++)
         steps[i](&check);
-    return tn_arena_failed(arena) ? TN_MEMORY : TN_OK;
+    for (size_t i = 0; i < result->schema_count; i++) {
+        tn_choices_free(result->schemas[i]->choices);
+        result->schemas[i]->choices = NULL;
+    }
+    return tn_arena_failed(arena) || check.out_of_memory ? TN_MEMORY : TN_OK;
 }

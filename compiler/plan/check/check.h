@@ -5,10 +5,13 @@
 #ifndef TARTAN_COMPILER_PLAN_CHECK_CHECK_H
 #define TARTAN_COMPILER_PLAN_CHECK_CHECK_H
 
+#include <gmp.h>
+
 #include "compiler/common/compilation.h"
 #include "compiler/common/import.h"
 #include "compiler/common/names.h"
 #include "compiler/plan/syntax/ast.h"
+#include "runtime/choices/choices.h"
 #include "runtime/module/module.h"
 #include "runtime/module/opcodes.h"
 
@@ -46,13 +49,24 @@ typedef struct tn_checked_spec {
     bool broken;       /* already reported */
 } tn_checked_spec;
 
+/* The trays of several specifiers that share none. */
+typedef struct tn_checked_trays {
+    tn_checked_spec **boxes; /* NULL: already reported */
+    size_t count;
+} tn_checked_trays;
+
+/* Trays as a set; which are not in it is kept apart: a tray is neither, if to say which means dividing by 0. */
+typedef struct tn_tray_set {
+    tn_choice_set yes, no;
+} tn_tray_set;
+
 /* A number of a tray: its cases in order, the first that fits counts. */
 typedef struct tn_checked_number {
     const tn_ast_number *ast;
     const struct tn_checked_schema *of; /* the schema that declares it */
     const char *name, *doc;
     int power;
-    tn_checked_spec **specs; /* of each case */
+    tn_checked_trays *cases;
     bool broken;
 } tn_checked_number;
 
@@ -65,9 +79,13 @@ typedef struct tn_checked_schema {
     uint32_t field_count;
     uint32_t value_count, words; /* over all fields; 64-bit words of a mask */
     uint32_t length_field;       /* the first of kind length, or TN_NONE */
-    tn_checked_spec **forbids;
-    tn_span *forbid_places;
+    tn_checked_spec **forbids;   /* what its `forbid`s and `only`s leave out */
+    tn_span *forbid_places;      /* of the line that says so */
     uint32_t forbid_count;
+    size_t forbid_room;
+    tn_choice_diagram *choices; /* sets of its trays, where some were made; tn_check_program frees it */
+    tn_choice_set legal; /* once `legal_known` */
+    bool legal_known;
     tn_checked_number *numbers;
     uint32_t number_count;
     int state;
@@ -317,6 +335,7 @@ typedef struct tn_check {
     const tn_checked_rule *open; /* the call that is being written out, or NULL */
     bool in_schema;              /* schemas are being checked: they know no params */
     bool met_param;              /* what has been written out so far depends on a param */
+    bool out_of_memory;          /* elsewhere than in the arena */
 
     /* of the rule or library being checked */
     size_t unit;
@@ -354,18 +373,6 @@ bool tn_check_wanted(const tn_check *check, tn_code warning); /* is it not allow
 
 /* ---- schema.c */
 void tn_check_schema(tn_check *check, tn_checked_schema *schema);
-
-/* ---- trays.c */
-void tn_check_forbids(tn_check *check, tn_checked_schema *schema);
-void tn_check_numbers(tn_check *check, tn_checked_schema *schema);
-/* Has the tray, a value of each field, what the specifier allows? */
-bool tn_check_meets(const tn_checked_schema *schema, const tn_checked_spec *spec, const uint8_t *values);
-/* Looks for a legal tray that meets both, a value of each field; false: none was found soon. */
-bool tn_check_both(const tn_checked_spec *a, const tn_checked_spec *b, uint8_t *values);
-/* The same of one that meets `a` (NULL: any) and not `b`. */
-bool tn_check_one_alone(const tn_checked_spec *a, const tn_checked_spec *b, uint8_t *values);
-
-/* ---- extend.c: schemas made from others */
 /* Finds the schema that it is made from, and checks that first; reports circles. */
 void tn_check_base(tn_check *check, tn_checked_schema *schema);
 bool tn_schema_extends(const tn_checked_schema *schema, const tn_checked_schema *older); /* not the same one */
@@ -374,6 +381,50 @@ const tn_checked_schema *tn_schema_of_word(const tn_checked_schema *schema, cons
                                            const char *word);
 void tn_check_older_fields(tn_check *check, tn_checked_schema *schema); /* each `... |` has older values */
 void tn_check_older_measures(tn_check *check); /* measures of older schemas, for the plans of those made from them */
+
+/* ---- trays.c */
+void tn_check_numbers(tn_check *check, tn_checked_schema *schema); /* what they say of which trays */
+void tn_check_forbids(tn_check *check, tn_checked_schema *schema);
+void tn_check_covered(tn_check *check, tn_checked_schema *schema); /* do they say something of all legal trays? */
+/* The tray, a value of each field, as a person writes it: "3m stair". */
+void tn_say_tray(const tn_checked_schema *schema, const uint8_t *values, char *text, size_t size);
+
+/* ---- tray_sets.c: sets of trays */
+tn_choice_diagram *tn_schema_choices(tn_check *check, tn_checked_schema *schema); /* NULL: out of memory */
+/* What a specifier lets in, also by comparing sums. older: as tn_check_spec. false: reported. */
+bool tn_check_tray_set(tn_check *check, tn_checked_schema *schema, const tn_checked_schema *older,
+                       const tn_ast_expr *tray, tn_tray_set *set);
+/* What is said of single trays by `tray(...)`, `any`, and, or, not, implies. false: reported. */
+bool tn_check_limit_set(tn_check *check, tn_checked_schema *schema, const tn_checked_schema *older,
+                        const tn_ast_expr *expr, tn_tray_set *set);
+tn_choice_set tn_legal_set(tn_check *check, tn_checked_schema *schema); /* TN_CHOICE_LOST: not known */
+/* The set as specifiers. false: reported, at the span. */
+bool tn_check_boxes(tn_check *check, tn_checked_schema *schema, tn_choice_set set, tn_span span,
+                    tn_checked_trays *trays);
+/* Is a legal tray neither in the set nor not? Then that is reported. */
+bool tn_check_undivided(tn_check *check, tn_checked_schema *schema, tn_tray_set set, tn_span span);
+/* Of a rule: takes the items that compare sums out of the specifier, and sets its spec and tests. false: it has none.
+ */
+bool tn_check_sums_of_tray(tn_check *check, tn_ast_expr *tray);
+
+/* ---- tray_sums.c: items of specifiers that compare sums */
+/* Does the item compare sums? rule: in a rule, where a number of a tray that is compared with a constant is none. */
+bool tn_is_sum_item(const tn_checked_schema *schema, const tn_ast_item *item, bool rule);
+/* The trays that meet it. false: reported. */
+bool tn_check_sum_item(tn_check *check, tn_checked_schema *schema, const tn_ast_item *item, tn_tray_set *set);
+/* Arithmetic over one tray, in nanometres to its power. cases: which case of each number counts; NULL: the first that
+ * the tray meets. */
+typedef enum tn_figure_value { TN_FIGURE_NONE, TN_FIGURE_OVER_ZERO, TN_FIGURE_SAYS } tn_figure_value;
+tn_figure_value tn_figure_compute(const tn_checked_schema *schema, const tn_ast_expr *figure, const size_t *cases,
+                                  const uint8_t *values, mpq_t out);
+/* Notes the fields that it depends on. */
+void tn_figure_fields(const tn_checked_schema *schema, const tn_ast_expr *figure, const size_t *cases, bool *depends);
+/* Has the tray, a value of each field, what the specifier allows? */
+bool tn_check_meets(const tn_checked_schema *schema, const tn_checked_spec *spec, const uint8_t *values);
+/* Looks for a legal tray that meets both, a value of each field; false: none was found soon. */
+bool tn_check_both(tn_check *check, const tn_checked_spec *a, const tn_checked_spec *b, uint8_t *values);
+/* The same of one that meets `a` (NULL: any) and not `b`. */
+bool tn_check_one_alone(tn_check *check, const tn_checked_spec *a, const tn_checked_spec *b, uint8_t *values);
 
 /* ---- spec.c */
 /* Trays with the value: shared with other specifiers that are alike, or one of its own. */
@@ -411,6 +462,8 @@ typedef struct tn_item_context {
 tn_checked_spec *tn_check_alternative(tn_check *check, tn_checked_schema *schema, const tn_ast_word *first,
                                       tn_span span, tn_item_context *context);
 tn_checked_spec *tn_check_any(tn_check *check, tn_checked_schema *schema, tn_span span);
+/* Trays by their mask, schema->words of it: copied. */
+tn_checked_spec *tn_box_spec(tn_check *check, tn_checked_schema *schema, const uint64_t *mask, tn_span span);
 
 /* ---- condition.c */
 #define TN_AREAS (TN_NONE - 1) /* instead of a field: areas are added, in halves of a square micrometre */
@@ -573,7 +626,7 @@ const char *tn_check_positive(tn_check *check, const tn_ast_word *word, const ch
 /* ---- form.c */
 void tn_check_forms(tn_check *check);
 
-/* ---- test.c, literal.c */
+/* ---- test.c */
 void tn_check_tests(tn_check *check);
 /* The values of a plan's trays, field by field; NULL where reported or empty. */
 const uint8_t *tn_check_plan(tn_check *check, const tn_checked_schema *schema, tn_ast_list trays, size_t *length);

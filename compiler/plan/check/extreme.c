@@ -40,88 +40,6 @@ void tn_check_extreme(tn_check *check, tn_ast_expr *expr)
 
 /* ---- what a number of a tray can be */
 
-/* The fields that a number of a tray depends on. */
-static void note_fields(const tn_checked_schema *schema, const tn_ast_expr *figure, bool *depends)
-{
-    for (TN_EACH(const tn_ast_expr, part, figure->parts))
-        note_fields(schema, part, depends);
-    if (figure->kind != TN_EXPR_FIGURE)
-        return;
-    if (!figure->number) {
-        depends[figure->field] = true;
-        return;
-    }
-    size_t i = 0;
-    for (TN_EACH(const tn_ast_number_case, c, figure->number->ast->cases)) {
-        const tn_checked_spec *spec = figure->number->specs[i++];
-        note_fields(schema, c->sum, depends);
-        for (uint32_t f = 0; f < schema->field_count; f++)
-            for (uint32_t v = 0; v < schema->fields[f].value_count; v++) {
-                uint32_t bit = schema->fields[f].first_bit + v;
-                depends[f] |= !(spec->mask[bit / 64] >> (bit % 64) & 1);
-            }
-    }
-}
-
-static bool compute(const tn_checked_schema *schema, const tn_ast_expr *figure, const uint8_t *values, mpq_t out);
-
-/* The first case that the tray meets. */
-static bool compute_number(const tn_checked_schema *schema, const tn_checked_number *number, const uint8_t *values,
-                           mpq_t out)
-{
-    size_t i = 0;
-    for (TN_EACH(const tn_ast_number_case, c, number->ast->cases))
-        if (tn_check_meets(schema, number->specs[i++], values))
-            return compute(schema, c->sum, values, out);
-    return false;
-}
-
-static bool compute_two(const tn_checked_schema *schema, const tn_ast_expr *figure, const uint8_t *values, mpq_t out)
-{
-    mpq_t right;
-    mpq_init(right);
-    bool good = compute(schema, (const tn_ast_expr *)figure->parts.first, values, out) &&
-                compute(schema, (const tn_ast_expr *)figure->parts.last, values, right) &&
-                (figure->kind != TN_EXPR_OVER || mpq_sgn(right) != 0);
-    if (good && figure->kind == TN_EXPR_PLUS)
-        mpq_add(out, out, right);
-    else if (good && figure->kind == TN_EXPR_MINUS)
-        mpq_sub(out, out, right);
-    else if (good && figure->kind == TN_EXPR_TIMES)
-        mpq_mul(out, out, right);
-    else if (good && figure->kind == TN_EXPR_OVER)
-        mpq_div(out, out, right);
-    else if (good && (mpq_cmp(right, out) < 0) == (figure->kind == TN_EXPR_LEAST))
-        mpq_set(out, right);
-    mpq_clear(right);
-    return good;
-}
-
-/* The number of the tray with these values, in nanometres to its power; false: it has none. */
-static bool compute(const tn_checked_schema *schema, const tn_ast_expr *figure, const uint8_t *values, mpq_t out)
-{
-    switch (figure->kind) {
-    case TN_EXPR_NUMBER:
-        mpq_set_str(out, figure->constant, 10);
-        return true;
-    case TN_EXPR_FIGURE:
-        if (figure->number)
-            return compute_number(schema, figure->number, values, out);
-        mpq_set_si(out,
-                   figure->place ? values[figure->field] + 1
-                                 : schema->fields[figure->field].values[values[figure->field]].length,
-                   1);
-        return true;
-    case TN_EXPR_NEGATIVE: {
-        bool good = compute(schema, (const tn_ast_expr *)figure->parts.first, values, out);
-        mpq_neg(out, out);
-        return good;
-    }
-    default:
-        return compute_two(schema, figure, values, out);
-    }
-}
-
 static bool next(const tn_checked_schema *schema, const bool *depends, uint8_t *values)
 {
     for (uint32_t f = schema->field_count; f-- > 0;) {
@@ -169,9 +87,9 @@ static bool collect(const tn_checked_schema *schema, const tn_ast_expr *figure, 
     size_t tries = 0;
     mpq_t number;
     mpq_init(number);
-    note_fields(schema, figure, depends);
+    tn_figure_fields(schema, figure, NULL, depends);
     do {
-        if (compute(schema, figure, values, number))
+        if (tn_figure_compute(schema, figure, NULL, values, number) == TN_FIGURE_SAYS)
             good = add_number(all, number);
     } while (good && ++tries < TRAYS_MAX && next(schema, depends, values));
     mpq_clear(number);

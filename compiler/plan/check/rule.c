@@ -174,6 +174,8 @@ static void check_leaf(tn_check *check, tn_ast_expr *expr)
     else if (!check->schema)
         return;
     else if (expr->kind == TN_EXPR_TRAY) {
+        if (tn_check_sums_of_tray(check, expr))
+            return;
         tn_check_tests_of_numbers(check, expr);
         expr->spec = tn_check_spec(check, check->schema, expr->older, expr);
     } else

@@ -538,6 +538,15 @@ tn_checked_spec *tn_check_any(tn_check *check, tn_checked_schema *schema, tn_spa
     return spec ? share(check, spec) : NULL;
 }
 
+tn_checked_spec *tn_box_spec(tn_check *check, tn_checked_schema *schema, const uint64_t *mask, tn_span span)
+{
+    tn_checked_spec *spec = new_spec(check->arena, schema, span);
+    if (!spec)
+        return NULL;
+    memcpy(spec->mask, mask, schema->words * sizeof *mask);
+    return share(check, spec);
+}
+
 tn_checked_spec *tn_value_spec(tn_arena *arena, tn_checked_schema *schema, uint32_t field, uint32_t value, tn_span span)
 {
     tn_checked_spec *spec = new_spec(arena, schema, span);

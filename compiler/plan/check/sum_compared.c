@@ -85,7 +85,7 @@ static bool has_gap(const tn_checked_sum *sum)
 /* A comparison of a gap becomes a relation. false: reported. */
 static bool compare_gap(tn_check *check, tn_ast_expr *expr, const tn_checked_sum *sum)
 {
-    if (sum->count == 1) {
+    if (sum->count == 1 && sum->terms[0].kind == TN_TERM_GAP) {
         tn_check_gap_compared(check, expr, &sum->terms[0], sum->constant);
         return true;
     }

@@ -209,7 +209,7 @@ static void warn_near(tn_check *check, const tn_ast_expr *near)
     bool trays = b && a->kind == TN_EXPR_TRAY && b->kind == TN_EXPR_TRAY && a->spec && b->spec && !a->tests.first &&
                  !b->tests.first && !a->spec->broken && !b->spec->broken;
     if (!trays || a->spec == b->spec || !tn_check_wanted(check, W_NEAR_ITSELF) ||
-        !tn_check_both(a->spec, b->spec, values))
+        !tn_check_both(check, a->spec, b->spec, values))
         return;
     char line[200];
     say_tray(a->spec->schema, values, line, sizeof line);
@@ -242,13 +242,13 @@ static const tn_checked_spec *counted_by(const tn_ast_expr *number)
 
 /* Is there a plan that tells "nowhere such a tray" from "a stretch without one"? It has what is counted without being
  * such a tray, as often as needed, and such a tray behind that. */
-static bool is_told_apart(const tn_ast_expr *number, const tn_ast_expr *tray)
+static bool is_told_apart(tn_check *check, const tn_ast_expr *number, const tn_ast_expr *tray)
 {
     uint8_t values[TN_FIELDS_MAX];
     const tn_checked_spec *such = tray->spec, *counted = counted_by(number);
     if (!such || such->broken || tray->tests.first || (counted && counted->broken))
         return false;
-    return tn_check_both(such, such, values) && tn_check_one_alone(counted, such, values);
+    return tn_check_both(check, such, such, values) && tn_check_one_alone(check, counted, such, values);
 }
 
 /* `sum(beds) > 2 and not tray(firedoor)` as a rule: in the whole plan there is no such tray. Whoever means a stretch
@@ -260,7 +260,7 @@ static void warn_and_not(tn_check *check, const tn_ast_expr *conjunction)
     const tn_ast_expr *tray = (const tn_ast_expr *)not ->parts.first;
     if (!check->rule || check->rule->ast->body != conjunction || conjunction->parts.count != 2 ||
         not ->kind != TN_EXPR_NOT || tray->kind != TN_EXPR_TRAY || !is_number_of_stretch(number) ||
-        !tn_check_wanted(check, W_NOT_IN_STRETCH) || !is_told_apart(number, tray))
+        !tn_check_wanted(check, W_NOT_IN_STRETCH) || !is_told_apart(check, number, tray))
         return;
     tn_span a = not ->node.span, b = number->node.span;
     words none = words_between(check, a.file, a.begin, a.end), count = words_between(check, b.file, b.begin, b.end);

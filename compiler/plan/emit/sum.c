@@ -58,8 +58,10 @@ void tn_emit_number(tn_emit *emit, const tn_checked_number *number, tn_span span
         cases[count++] = c;
     tn_emit_op(emit, span, TN_OP_FIGURE, tn_builder_string(emit->builder, "0"), 0);
     for (size_t i = count; i-- > 0;) {
-        emit_figure(emit, cases[i]->sum);
-        tn_emit_op(emit, cases[i]->node.span, TN_OP_PICK, tn_emit_spec(emit, number->specs[i]), 0);
+        for (size_t k = 0; k < number->cases[i].count; k++) {
+            emit_figure(emit, cases[i]->sum);
+            tn_emit_op(emit, cases[i]->node.span, TN_OP_PICK, tn_emit_spec(emit, number->cases[i].boxes[k]), 0);
+        }
     }
 }
 

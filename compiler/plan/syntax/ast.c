@@ -48,6 +48,11 @@ tn_ast_word *tn_ast_not_word(tn_parse *parse, tn_span span)
     return tn_ast_word_new(parse, TN_WORD_NOT, span, "not", 0);
 }
 
+tn_ast_word *tn_ast_sign(tn_parse *parse, tn_span span)
+{
+    return tn_ast_word_new(parse, TN_WORD_SIGN, span, tn_arena_copy(parse->arena, parse->text + span.begin, 1), 0);
+}
+
 tn_ast_word *tn_ast_operator(tn_parse *parse, tn_span span, tn_operator op)
 {
     tn_ast_word *word = tn_ast_word_new(parse, TN_WORD_OPERATOR, span, "", 0);

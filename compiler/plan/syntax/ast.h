@@ -36,9 +36,11 @@ typedef enum tn_word_kind {
     TN_WORD_ABSENT,   /* in a plan that is written as plan lines are: `-` */
     TN_WORD_OF_DEPTH, /* there, too: the `:` between a fill and its depth */
     TN_WORD_RATIO,    /* of what a room has: `1:12` */
+    TN_WORD_SIGN,     /* in a specifier: of arithmetic, `+`, `-`, `*`, `/` */
 } tn_word_kind;
 
-/* A name, a number, a length, a string; in specifiers also `not`, comparison signs, ranges and groups. */
+/* A name, a number, a length, a string; in specifiers also `not`, comparison signs, those of arithmetic, ranges and
+ * groups. */
 typedef struct tn_ast_word {
     tn_ast_node node;
     tn_word_kind kind;
@@ -268,9 +270,11 @@ typedef struct tn_ast_field {
     bool extends;       /* begins with `...`: the values that an older schema gives the field come first */
 } tn_ast_field;
 
+/* Which trays there are: `forbid`, those that are not so; `only`, those that are. */
 typedef struct tn_ast_forbid {
     tn_ast_node node;
-    tn_ast_expr *tray;
+    tn_ast_expr *expr; /* of `tray(...)`, `any`, and, or, not, implies */
+    bool only;
 } tn_ast_forbid;
 
 /* A number of a tray: the first of its cases that the tray meets says it. */
@@ -415,6 +419,7 @@ void tn_ast_too_deep(tn_parse *parse, tn_span span);              /* E0830, once
 tn_ast_word *tn_ast_word_new(tn_parse *parse, tn_word_kind kind, tn_span span, const char *text, int64_t value);
 tn_ast_word *tn_ast_not_word(tn_parse *parse, tn_span span);
 tn_ast_word *tn_ast_operator(tn_parse *parse, tn_span span, tn_operator op);
+tn_ast_word *tn_ast_sign(tn_parse *parse, tn_span span);
 tn_ast_word *tn_ast_negative(tn_parse *parse, tn_span span, const tn_ast_word *number);
 
 tn_ast_word *tn_ast_word_range(tn_parse *parse, tn_span span, const tn_ast_word *low, const tn_ast_word *high);
@@ -511,7 +516,7 @@ void *tn_ast_let_new(tn_parse *parse, tn_span span, const tn_ast_word *name, tn_
 void *tn_ast_param_new(tn_parse *parse, tn_span span, tn_ast_rule head, tn_ast_expr *value);
 void *tn_ast_setting_new(tn_parse *parse, tn_span span, const tn_ast_word *name, tn_ast_expr *value);
 tn_ast_body tn_ast_body_field(tn_ast_body body, void *field);
-void *tn_ast_forbid_new(tn_parse *parse, tn_span span, tn_ast_list items);
+void *tn_ast_forbid_new(tn_parse *parse, tn_span span, tn_ast_expr *expr, bool only);
 tn_ast_body tn_ast_body_forbid(tn_ast_body body, void *forbid);
 tn_ast_body tn_ast_body_broken(tn_ast_body body);
 void *tn_ast_rule_new(tn_parse *parse, tn_span span, tn_ast_rule head, tn_ast_expr *body);

@@ -118,13 +118,15 @@ tn_ast_body tn_ast_body_field(tn_ast_body body, void *field)
     return body;
 }
 
-void *tn_ast_forbid_new(tn_parse *parse, tn_span span, tn_ast_list items)
+void *tn_ast_forbid_new(tn_parse *parse, tn_span span, tn_ast_expr *expr, bool only)
 {
     tn_ast_forbid *forbid = TN_NEW(parse->arena, tn_ast_forbid);
-    if (!forbid)
+    if (!forbid || !expr)
         return NULL;
-    *forbid = (tn_ast_forbid){.node.span = span, .tray = tn_ast_tray_new(parse, span, items)};
-    return forbid->tray ? forbid : NULL;
+    if (expr->kind == TN_EXPR_TRAY && !only)
+        expr->node.span = span;
+    *forbid = (tn_ast_forbid){.node.span = span, .expr = expr, .only = only};
+    return forbid;
 }
 
 tn_ast_body tn_ast_body_forbid(tn_ast_body body, void *forbid)

@@ -54,6 +54,8 @@ typedef struct tn_parse {
     int clause; /* the word that began the clause of a library at hand: `weight`, `prefer`; 0: another one, or none */
     bool apart; /* `at least` was read, and not its `from` */
     bool in_number;  /* inside a `number` of a schema: min and max are functions */
+    bool in_limit;   /* inside an `only` or `forbid` of a schema: `any`, `and`, `or`, `not`, `implies` are words */
+    bool in_tray;    /* inside `tray(...)`, not what is written likewise of cells */
     bool in_extreme; /* the sum over a tray that is read is one of `max(...)` or `min(...)` */
     uint32_t groups; /* in parentheses, in specifiers */
     bool too_deep;   /* nesting was reported */

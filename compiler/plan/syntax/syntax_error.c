@@ -486,7 +486,9 @@ static bool report_parted_name(tn_parse *parse, const tn_syntax_found *found, co
 static bool report_two_words(tn_parse *parse, const tn_syntax_found *found, const tn_expected *e)
 {
     tn_span first = found->after, second = found->span;
-    if (first.end == first.begin || strcmp(found->name, "a name") != 0 || slip_here(parse, second, e))
+    bool only = parse->mode == TN_LEX_SCHEMA && second.end - second.begin == 4 &&
+                memcmp(parse->text + second.begin, "only", 4) == 0;
+    if (first.end == first.begin || strcmp(found->name, "a name") != 0 || only || slip_here(parse, second, e))
         return false;
     if (is_quantifier(parse, first))
         return report_quantifier(parse, tn_span_join(first, second));

@@ -51,6 +51,16 @@ static bool stands_here(const tn_parse *parse, const char *word)
     return span.end - span.begin == size && memcmp(parse->text + span.begin, word, size) == 0;
 }
 
+/* Is what stands at hand in the parentheses of `min(...)` or `max(...)`, with none inside them? */
+static bool in_extreme(const tn_parse *parse)
+{
+    size_t at = parse->last_span.begin;
+    while (at > 0 && !strchr("()\n", parse->text[at - 1]))
+        at--;
+    const char *word = at >= 4 && parse->text[at - 1] == '(' ? parse->text + at - 4 : "";
+    return strncmp(word, "min(", 4) == 0 || strncmp(word, "max(", 4) == 0;
+}
+
 static bool comes_after_number(const tn_parse *parse)
 {
     tn_span span = parse->span_before;
@@ -326,6 +336,9 @@ static const char *mark_fix(const tn_parse *parse, const char *found, const tn_e
     if (strcmp(found, "`:`") == 0 && parse->mode == TN_LEX_TRAY)
         return "leave it out: a value follows its field after a blank";
     bool tray = parse->mode == TN_LEX_TRAY;
+    if (tray && strcmp(found, "`,`") == 0 && in_extreme(parse))
+        return "the smaller and the greater of two numbers of a tray are had by a `number` of the schema: "
+               "`number least = min(a, b)`";
     if (tray && (strcmp(found, "`|`") == 0 || strcmp(found, "`{`") == 0 ||
                  (strcmp(found, "`,`") == 0 && tn_expects(e, "`or`") && !tn_expects(e, "`,`"))))
         return "values that a tray may have are joined by `or`: `tray(a or b)`, `tray(not (a or b))`";
@@ -410,7 +423,7 @@ static const char *word_fix(const tn_parse *parse, const char *found, const tn_e
     if (tn_expects(e, "`of`") || (strcmp(found, "`tray`") == 0 && tn_expects(e, "`not`") && !tn_expects(e, "`tray`")))
         return parse->in_extreme ? extreme_fix(parse, found)
                                  : "which trays are added up is said after `of`: `sum(FIELD of tray(a))`";
-    if (tn_expects(e, "`where`") && parse->in_number)
+    if (tn_expects(e, "`where`") && parse->in_number && !stands_here(parse, "only"))
         return "which trays a case is for is said by `where`: `number beds = 4 where tray(a) | 0`";
     if (e->count == 1 && tn_expects(e, "`every`"))
         return "what is far is so from each: `a at least 2 from every b`";
@@ -426,7 +439,8 @@ static const char *word_fix(const tn_parse *parse, const char *found, const tn_e
         return "a measure is made of sums: `1200 * sum(FIELD) / 1m + 15000 * quantity(tray(a))`";
     if (strcmp(found, "a text in quotes") == 0 && parse->mode == TN_LEX_TRAY)
         return "values stand without quotes";
-    if (strcmp(found, "a name") == 0 && comes_after_number(parse) && tn_expects(e, "`*`"))
+    if (strcmp(found, "a name") == 0 && comes_after_number(parse) && tn_expects(e, "`*`") &&
+        !stands_here(parse, "only"))
         return "no word follows a number; a unit follows directly: `30m`";
     return NULL;
 }
@@ -445,6 +459,8 @@ static const char *schema_fix(const tn_parse *parse, const char *found, const tn
         return "the depths of a fill stand in parentheses: `FILL(2m, 3m)`";
     if (strcmp(found, "`..`") == 0 && tn_expects(e, "`|`"))
         return "each value is written: `4m | 6m | 8m`";
+    if (stands_here(parse, "only"))
+        return "what all trays are is said by `only tray(...)`, with `and`, `or`, `not` between several";
     if (stands_here(parse, "tray") && !tn_expects(e, "`tray`"))
         return "each tray that is left out has a `forbid` of its own: `forbid tray(...)`";
     return NULL;

@@ -15,7 +15,8 @@ typedef enum tn_word_read {
     TN_READ_SCHEMA = 1 << 5,
     TN_READ_TRAY = 1 << 6, /* in specifiers, `tray(...)` and the like, and in open plans */
     TN_READ_PLAN = 1 << 7, /* in the plans of tests */
-    TN_READ_FORM = 1 << 8
+    TN_READ_FORM = 1 << 8,
+    TN_READ_LIMIT = 1 << 9 /* behind `only` and `forbid` of a schema */
 } tn_word_read;
 
 enum { TN_READ_TOP = TN_READ_RULES | TN_READ_OPENING | TN_READ_WALK | TN_READ_LATER };

@@ -10,10 +10,10 @@
 
 /* A joint is a node with a place of the machine. Its element, forwards, is of the choices that lead there; backwards of
  * the houses that go on from there and complete the plan. best: the best value of these. */
-typedef struct tn_joint {
+typedef struct tn_joint_counts {
     mpz_t count;
     tn_int128 best;
-} tn_joint;
+} tn_joint_counts;
 
 /* The joints of a layer by their nodes. */
 typedef struct tn_joint_lists {
@@ -163,7 +163,7 @@ static tn_status show_ends(void *context, uint32_t layer, tn_key_walk *walk, tn_
 
 static void zero_joint(const void *context, void *element)
 {
-    tn_joint *joint = element;
+    tn_joint_counts *joint = element;
     (void)context;
     mpz_init(joint->count);
     joint->best = WORST;
@@ -171,13 +171,13 @@ static void zero_joint(const void *context, void *element)
 
 static void clear_joint(void *element)
 {
-    mpz_clear(((tn_joint *)element)->count);
+    mpz_clear(((tn_joint_counts *)element)->count);
 }
 
 static tn_status start(void *context, uint32_t layer, uint32_t state, void *element, tn_error *error)
 {
     const tn_completing *c = context;
-    tn_joint *joint = element;
+    tn_joint_counts *joint = element;
     (void)layer;
     (void)state;
     (void)error;
@@ -196,8 +196,8 @@ static void times(tn_completing *c, const mpz_t count, const tn_houses_edge *edg
 static tn_status count_forwards(void *context, void *sum, const void *element, const tn_walk_edge *at, tn_error *error)
 {
     tn_completing *c = context;
-    tn_joint *to = sum;
-    const tn_joint *from = element;
+    tn_joint_counts *to = sum;
+    const tn_joint_counts *from = element;
     const tn_houses_edge *edge = ((const tn_joint_step *)at->label)->edge;
     if (c->joint_count + at->to > c->houses->max_states)
         return too_many(c, error);
@@ -211,8 +211,9 @@ static tn_status count_forwards(void *context, void *sum, const void *element, c
 static tn_status count_backwards(void *context, void *sum, const void *element, const tn_walk_edge *at, tn_error *error)
 {
     tn_completing *c = context;
-    tn_joint *from = sum;
-    const tn_joint *to = element, *before = tn_key_walk_forward_of(&c->walk, at->layer, at->from, sizeof *before);
+    tn_joint_counts *from = sum;
+    const tn_joint_counts *to = element,
+                          *before = tn_key_walk_forward_of(&c->walk, at->layer, at->from, sizeof *before);
     const tn_joint_step *step = at->label;
     size_t placed = (size_t)step->item * c->houses->form->schema->tray_count + step->edge->tray;
     (void)error;
@@ -232,7 +233,7 @@ static tn_status count_backwards(void *context, void *sum, const void *element, 
 
 static tn_status count_end(void *context, void *element, const tn_walk_edge *at, tn_error *error)
 {
-    tn_joint *joint = element;
+    tn_joint_counts *joint = element;
     const tn_houses_edge *edge = at->label;
     (void)context;
     (void)error;
@@ -257,11 +258,12 @@ static tn_status complete_kind(tn_completing *c, tn_error *error)
         return tn_fail_memory(error);
     tn_status status = tn_key_walk_begin(&c->walk, machine, error);
     if (status == TN_OK)
-        status = tn_key_walk_forward(&c->walk, &(tn_key_question){&before, NULL, c, sizeof(tn_joint)}, error);
+        status = tn_key_walk_forward(&c->walk, &(tn_key_question){&before, NULL, c, sizeof(tn_joint_counts)}, error);
     if (status == TN_OK)
-        status = tn_key_walk_backward(&c->walk, &(tn_key_question){&after, count_end, c, sizeof(tn_joint)}, error);
+        status =
+            tn_key_walk_backward(&c->walk, &(tn_key_question){&after, count_end, c, sizeof(tn_joint_counts)}, error);
     if (status == TN_OK)
-        mpz_addmul_ui(c->out->plans, ((tn_joint *)(void *)c->walk.backward[0])->count, c->kind->sections);
+        mpz_addmul_ui(c->out->plans, ((tn_joint_counts *)(void *)c->walk.backward[0])->count, c->kind->sections);
     tn_key_walk_clear(&c->walk, &before, &after);
     return status;
 }

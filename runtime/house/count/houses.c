@@ -53,13 +53,13 @@ typedef struct tn_node_counts {
     mpz_t houses, faced;
 } tn_node_counts;
 
-typedef struct tn_counting {
+typedef struct tn_counting_houses {
     const tn_houses *houses;
     tn_houses_kind *kind;
     uint32_t stages, layer; /* layer: 1 and the one that is gone on from; 0: none yet */
     uint64_t nodes;         /* of all layers of states so far */
     mpz_t one;
-} tn_counting;
+} tn_counting_houses;
 
 static void zero_counts(const void *context, void *element)
 {
@@ -86,7 +86,7 @@ static tn_status one_of_counts(void *context, uint32_t layer, uint32_t state, vo
     return TN_OK;
 }
 
-static void begin_layer(tn_counting *c, uint32_t layer)
+static void begin_layer(tn_counting_houses *c, uint32_t layer)
 {
     tn_houses_layer *at = &c->kind->layers[layer];
     at->kept.all = !c->houses->measures && !c->houses->trays_matter;
@@ -96,7 +96,7 @@ static void begin_layer(tn_counting *c, uint32_t layer)
 
 static tn_status add_counts(void *context, void *sum, const void *element, const tn_walk_edge *at, tn_error *error)
 {
-    tn_counting *c = context;
+    tn_counting_houses *c = context;
     tn_node_counts *to = sum;
     const tn_node_counts *from = element;
     const tn_houses_edge *edge = at->label;
@@ -114,7 +114,7 @@ static tn_status add_counts(void *context, void *sum, const void *element, const
 
 static tn_status end_counts(void *context, void *element, const tn_walk_edge *at, tn_error *error)
 {
-    const tn_counting *c = context;
+    const tn_counting_houses *c = context;
     const tn_node_counts *from = element;
     const tn_houses_edge *edge = at->label;
     (void)error;
@@ -128,7 +128,7 @@ static const tn_walk_algebra counts = {
 
 static tn_status count_kind(tn_houses *h, tn_houses_kind *kind, tn_error *error)
 {
-    tn_counting c = {.houses = h, .kind = kind, .stages = tn_houses_stages(h, kind)};
+    tn_counting_houses c = {.houses = h, .kind = kind, .stages = tn_houses_stages(h, kind)};
     kind->houses = tn_integers_new(tn_houses_lengths(h));
     if (!kind->houses)
         return tn_fail_memory(error);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "runtime/base/length.h"
+#include "runtime/choices/choices.h"
 
 /* A number that goes through all combinations of values in order: the last field turns fastest. */
 static bool odometer_step(const tn_schema *schema, uint8_t *values)
@@ -47,9 +48,11 @@ static uint32_t forbidding_spec(const tn_schema *schema, const uint64_t *mask)
 
 static tn_status too_many(const tn_schema *schema, uint64_t limit, tn_error *error)
 {
-    tn_fail(error, TN_LIMIT, E_TOO_MANY_TRAYS, "schema %s has more combinations of values than the limit of %llu",
+    tn_fail(error, TN_LIMIT, E_TOO_MANY_TRAYS, "schema %s has more legal trays than the limit of %llu",
             tn_text(schema->module, schema->record->name), (unsigned long long)limit);
-    tn_error_help(error, "name fewer values, or fewer fields: every legal tray has a number and a place in a table");
+    tn_error_help(error,
+                  "name fewer values, or fewer fields, or say by `only` or `forbid` which trays there are: every "
+                  "legal tray has a number and a place in a table");
     return TN_LIMIT;
 }
 
@@ -77,32 +80,32 @@ static tn_status check_fields(const tn_schema *schema, tn_error *error)
 }
 
 /* Sets value_start, value_count, mask_words, code_count. */
-static tn_status count_codes(tn_schema *schema, uint64_t max_codes, tn_error *error)
+static void count_codes(tn_schema *schema)
 {
     uint64_t codes = 1;
     uint32_t start = 0;
     for (uint32_t i = 0; i < schema->field_count; i++) {
         schema->value_start[i] = start;
         start += schema->fields[i].value_count;
-        codes *= schema->fields[i].value_count; /* cannot overflow: at most max_codes times 256 */
-        if (codes > max_codes)
-            return too_many(schema, max_codes, error);
+        codes = codes > UINT64_MAX / TN_FIELD_VALUES_MAX ? UINT64_MAX : codes * schema->fields[i].value_count;
     }
     schema->value_start[schema->field_count] = start;
     schema->value_count = start;
     schema->mask_words = (start + 63) / 64;
     schema->code_count = codes;
+}
 
-    uint64_t tray_bytes = schema->field_count + sizeof(uint64_t) * (uint64_t)schema->mask_words;
-    if (tray_bytes * codes > TN_SCHEMA_BYTES_MAX)
-        return tn_fail(error, TN_LIMIT, E_TOO_MANY_TRAYS,
-                       "the trays of schema %s need more memory than the limit of %llu bytes",
-                       tn_text(schema->module, schema->record->name), (unsigned long long)TN_SCHEMA_BYTES_MAX);
-    if (codes * ((uint64_t)schema->record->forbid_count * schema->mask_words) > TN_SCHEMA_CHECKS_MAX)
-        return tn_fail(error, TN_LIMIT, E_TOO_MANY_TRAYS,
-                       "schema %s has too many combinations for its %u forbidden specifiers",
-                       tn_text(schema->module, schema->record->name), (unsigned)schema->record->forbid_count);
-    return TN_OK;
+static uint64_t bytes_of_tray(const tn_schema *schema)
+{
+    return schema->field_count + sizeof(uint64_t) * (uint64_t)schema->mask_words;
+}
+
+/* Can all combinations be gone through one by one, and have a place in a table? */
+static bool is_small(const tn_schema *schema, uint64_t max_trays)
+{
+    uint64_t codes = schema->code_count;
+    return codes <= max_trays && bytes_of_tray(schema) * codes <= TN_SCHEMA_BYTES_MAX &&
+           codes * ((uint64_t)schema->record->forbid_count * schema->mask_words) <= TN_SCHEMA_CHECKS_MAX;
 }
 
 /* Numbers the legal combinations and fills the tables. `values` and `mask` are room for one tray. */
@@ -132,7 +135,7 @@ static tn_status forbids_all(const tn_schema *schema, tn_error *error)
     return TN_INVALID;
 }
 
-static tn_status make_trays(tn_schema *schema, tn_error *error)
+static tn_status make_few(tn_schema *schema, tn_error *error)
 {
     size_t codes = (size_t)schema->code_count;
     schema->tray_values = malloc(codes * schema->field_count + 1);
@@ -145,18 +148,79 @@ static tn_status make_trays(tn_schema *schema, tn_error *error)
         number_trays(schema, values, mask);
     free(values);
     free(mask);
-    if (!ready)
-        return tn_fail_memory(error);
-    return schema->tray_count > 0 ? TN_OK : forbids_all(schema, error);
+    return ready ? TN_OK : tn_fail_memory(error);
 }
 
-tn_status tn_schema_new(const tn_module *module, uint32_t index, uint64_t max_codes, tn_schema **out, tn_error *error)
+/* ---- schemas of so many combinations that they are not gone through one by one */
+
+/* The combinations that no `forbid` forbids. */
+static tn_choice_set legal_trays(const tn_schema *schema, tn_choice_diagram *choices)
+{
+    uint32_t count = schema->record->forbid_count;
+    tn_choice_set *boxes = malloc((count + 1u) * sizeof *boxes);
+    uint64_t *mask = malloc((schema->mask_words + 1u) * sizeof *mask);
+    for (uint32_t i = 0; boxes && mask && i < count; i++) {
+        for (uint32_t word = 0; word < schema->mask_words; word++)
+            mask[word] = tn_spec_word(schema->module, schema->record->forbid_first + i, word);
+        boxes[i] = tn_choices_box(choices, mask);
+    }
+    tn_choice_set legal =
+        boxes && mask ? tn_choices_not(choices, tn_choices_any_of(choices, boxes, count)) : TN_CHOICE_LOST;
+    free(boxes);
+    free(mask);
+    return legal;
+}
+
+static bool add_tray(void *context, const uint8_t *values)
+{
+    tn_schema *schema = context;
+    uint32_t tray = schema->tray_count++;
+    memcpy(schema->tray_values + (size_t)tray * schema->field_count, values, schema->field_count);
+    mask_of_values(schema, values, schema->tray_masks + (size_t)tray * schema->mask_words);
+    return true;
+}
+
+static tn_status number_legal(tn_schema *schema, tn_choice_diagram *choices, uint64_t max_trays, tn_error *error)
+{
+    tn_choice_set legal = legal_trays(schema, choices);
+    if (legal == TN_CHOICE_LOST && !tn_choices_full(choices))
+        return tn_fail_memory(error);
+    if (legal == TN_CHOICE_LOST) {
+        tn_fail(error, TN_LIMIT, E_TOO_MANY_TRAYS, "which trays of schema %s are legal takes too long to find out",
+                tn_text(schema->module, schema->record->name));
+        tn_error_help(error, "name fewer values, or fewer fields, or forbid trays by fewer fields at once");
+        return TN_LIMIT;
+    }
+    uint64_t trays = tn_choices_count(choices, legal), bytes = bytes_of_tray(schema);
+    uint64_t room = TN_SCHEMA_BYTES_MAX / bytes;
+    if (trays > max_trays || trays > room)
+        return too_many(schema, max_trays < room ? max_trays : room, error);
+    schema->tray_values = malloc((size_t)trays * schema->field_count + 1);
+    schema->tray_masks = malloc(((size_t)trays * schema->mask_words + 1) * sizeof *schema->tray_masks);
+    if (!schema->tray_values || !schema->tray_masks)
+        return tn_fail_memory(error);
+    tn_choices_each(choices, legal, add_tray, schema);
+    return TN_OK;
+}
+
+static tn_status make_many(tn_schema *schema, uint64_t max_trays, tn_error *error)
+{
+    uint32_t counts[TN_FIELDS_MAX];
+    for (uint32_t i = 0; i < schema->field_count; i++)
+        counts[i] = schema->fields[i].value_count;
+    tn_choice_diagram *choices = tn_choices_new(counts, schema->field_count, TN_CHOICES_ROOM);
+    tn_status status = choices ? number_legal(schema, choices, max_trays, error) : tn_fail_memory(error);
+    tn_choices_free(choices);
+    return status;
+}
+
+tn_status tn_schema_new(const tn_module *module, uint32_t index, uint64_t max_trays, tn_schema **out, tn_error *error)
 {
     *out = NULL;
-    if (max_codes == 0)
-        max_codes = TN_SCHEMA_CODES_DEFAULT;
-    if (max_codes > TN_NO_TRAY)
-        max_codes = TN_NO_TRAY;
+    if (max_trays == 0)
+        max_trays = TN_SCHEMA_TRAYS_DEFAULT;
+    if (max_trays > TN_NO_TRAY)
+        max_trays = TN_NO_TRAY;
     tn_schema *schema = calloc(1, sizeof *schema);
     if (!schema)
         return tn_fail_memory(error);
@@ -166,12 +230,13 @@ tn_status tn_schema_new(const tn_module *module, uint32_t index, uint64_t max_co
     schema->field_count = schema->record->field_count;
     schema->value_start = malloc((schema->field_count + 1u) * sizeof *schema->value_start);
     tn_status status = schema->value_start ? check_fields(schema, error) : tn_fail_memory(error);
-    if (status == TN_OK)
-        status = count_codes(schema, max_codes, error);
     if (status == TN_OK) {
+        count_codes(schema);
         schema->values = schema->field_count > 0 ? module->VALUE_records + schema->fields[0].value_first : NULL;
-        status = make_trays(schema, error);
+        status = is_small(schema, max_trays) ? make_few(schema, error) : make_many(schema, max_trays, error);
     }
+    if (status == TN_OK && schema->tray_count == 0)
+        status = forbids_all(schema, error);
     if (status != TN_OK) {
         tn_schema_free(schema);
         return status;
@@ -191,8 +256,27 @@ void tn_schema_free(tn_schema *schema)
     free(schema);
 }
 
+/* Trays are in the order of their values. */
+static tn_tray look_up(const tn_schema *schema, const uint8_t *values)
+{
+    tn_tray low = 0, high = schema->tray_count;
+    while (low < high) {
+        tn_tray middle = low + (high - low) / 2;
+        int order = memcmp(schema->tray_values + (size_t)middle * schema->field_count, values, schema->field_count);
+        if (order == 0)
+            return middle;
+        if (order < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return TN_NO_TRAY;
+}
+
 tn_tray tn_schema_tray(const tn_schema *schema, const uint8_t *values)
 {
+    if (!schema->tray_of_code)
+        return look_up(schema, values);
     uint64_t code = 0;
     for (uint32_t field = 0; field < schema->field_count; field++)
         code = code * schema->fields[field].value_count + values[field];

@@ -27,19 +27,20 @@ typedef struct tn_schema {
     uint32_t tray_count;    /* legal trays */
     uint8_t *tray_values;   /* [tray][field]: index of the value within its field */
     uint64_t *tray_masks;   /* [tray][mask word]: one bit per value that the tray has, as in a specifier */
-    uint32_t *tray_of_code; /* all combinations in order -> tray, or TN_NO_TRAY */
-    uint64_t code_count;    /* combinations, legal or not */
+    uint32_t *tray_of_code; /* all combinations in order -> tray, or TN_NO_TRAY; NULL: they are too many */
+    uint64_t code_count;    /* combinations, legal or not; UINT64_MAX: that or more */
 } tn_schema;
 
-/* Makes a schema ready; index: of the SCHEMA record. max_codes bounds the combinations (0: TN_SCHEMA_CODES_DEFAULT) and
- * with them the memory of their tables; E0803 past it. E0207 where every tray is forbidden; E0703 where a module's
+/* Makes a schema ready; index: of the SCHEMA record. max_trays bounds the legal trays (0: TN_SCHEMA_TRAYS_DEFAULT) and
+ * with them the memory of their tables; E0803 past it. Of combinations there may be any number: where they are no more
+ * than that, each has a place in a table. E0207 where every tray is forbidden; E0703 where a module's
  * tables are not as a schema needs them.
  * The caller frees *schema with tn_schema_free. */
-#define TN_SCHEMA_CODES_DEFAULT (1u << 20)
+#define TN_SCHEMA_TRAYS_DEFAULT (1u << 20)
 #define TN_FIELD_VALUES_MAX 256u                 /* a value's index is held in a byte */
 #define TN_SCHEMA_BYTES_MAX (UINT64_C(1) << 28)  /* of the tables of trays */
 #define TN_SCHEMA_CHECKS_MAX (UINT64_C(1) << 31) /* combinations held against `forbid`s, in mask words */
-tn_status tn_schema_new(const tn_module *module, uint32_t index, uint64_t max_codes, tn_schema **schema,
+tn_status tn_schema_new(const tn_module *module, uint32_t index, uint64_t max_trays, tn_schema **schema,
                         tn_error *error);
 void tn_schema_free(tn_schema *schema);
 

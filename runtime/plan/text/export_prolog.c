@@ -9,125 +9,19 @@
 #include <string.h>
 
 #include "runtime/module/code.h"
-#include "runtime/plan/match/parts.h"
 #include "runtime/plan/schema/sum.h"
+#include "runtime/plan/text/prolog_writing.h"
 
-/* The judgements of docs/plan-language.md that are not a rule's own. w(N, Plan) is a plan of N trays, [I, J) a stretch
- * of it. */
-extern const char tn_prolog_prelude[];
+typedef tn_prolog_writing writing;
 
-/* ---- holds the beginning of exported Prolog programs, and the names that they may not define */
-
-const char tn_prolog_prelude[] =
-    "plan_of(Trays, w(N, Plan)) :- Plan =.. [plan|Trays], functor(Plan, _, N).\n"
-    "tray_at(w(_, Plan), I, Tray) :- K is I + 1, arg(K, Plan, Tray).\n"
-    "\n"
-    "from_to(I, J, I) :- I =< J.\n"
-    "from_to(I, J, K) :- I < J, I1 is I + 1, from_to(I1, J, K).\n"
-    "\n"
-    "one_of(X, [X|_]) :- !.\n"
-    "one_of(X, [_|Xs]) :- one_of(X, Xs).\n"
-    "\n"
-    "stretch(I, J, A, B) :- Last is J - 1, from_to(I, Last, A), A1 is A + 1, from_to(A1, J, B).\n"
-    "somewhere(Part, W, I, J) :- stretch(I, J, A, B), call(Part, W, A, B), !.\n"
-    "\n"
-    "% Parts side by side; may(Part) can be left out.\n"
-    "side_by_side([], _, I, I).\n"
-    "side_by_side([may(Part)|Parts], W, I, J) :- side_by_side([Part|Parts], W, I, J), !.\n"
-    "side_by_side([may(_)|Parts], W, I, J) :- !, side_by_side(Parts, W, I, J).\n"
-    "side_by_side([Part|Parts], W, I, J) :-\n"
-    "    needed(Parts, R), Last is J - R, I1 is I + 1, from_to(I1, Last, C), call(Part, W, I, C),\n"
-    "    side_by_side(Parts, W, C, J), !.\n"
-    "needed([], 0).\n"
-    "needed([may(_)|Parts], R) :- !, needed(Parts, R).\n"
-    "needed([_|Parts], R) :- needed(Parts, R1), R is R1 + 1.\n"
-    "\n"
-    "at_beginning(_, I, _) :- I =:= 0.\n"
-    "at_end(w(N, _), _, J) :- J =:= N.\n"
-    "\n"
-    "mirrored(Part, w(N, Plan), I, J) :-\n"
-    "    Plan =.. [plan|Trays], reversed(Trays, [], Back), plan_of(Back, W), A is N - J, B is N - I, call(Part, W, A, "
-    "B).\n"
-    "reversed([], Back, Back).\n"
-    "reversed([T|Ts], Done, Back) :- reversed(Ts, [T|Done], Back).\n"
-    "\n"
-    "every_tray(Part, W, I, J) :-\n"
-    "    I < J, Last is J - 1, \\+ (from_to(I, Last, K), K1 is K + 1, \\+ call(Part, W, K, K1)).\n"
-    "\n"
-    "% The part several times side by side; each takes a tray at least.\n"
-    "repeated(Least, Most, Part, W, I, J) :- repeated(Least, Most, 0, Part, W, I, J), !.\n"
-    "repeated(Least, _, N, _, _, J, J) :- N >= Least.\n"
-    "repeated(Least, Most, N, Part, W, I, J) :-\n"
-    "    ( Most == inf -> true ; N < Most ), I < J, N1 is N + 1, R is max(0, Least - N1), Last is J - R, I1 is I + 1,\n"
-    "    from_to(I1, Last, C), call(Part, W, I, C), repeated(Least, Most, N1, Part, W, C, J).\n"
-    "\n"
-    "count(_, _, J, J, 0) :- !.\n"
-    "count(Part, W, I, J, N) :-\n"
-    "    I1 is I + 1, count(Part, W, I1, J, M), ( call(Part, W, I, I1) -> N is M + 1 ; N = M ).\n"
-    "\n"
-    "sum(_, _, _, J, J, 0) :- !.\n"
-    "sum(Field, Part, W, I, J, S) :-\n"
-    "    I1 is I + 1, sum(Field, Part, W, I1, J, R),\n"
-    "    ( call(Part, W, I, I1) -> tray_at(W, I, Tray), arg(Field, Tray, V), length_of(Field, V, L), S is R + L ; S = "
-    "R ).\n"
-    "\n"
-    "starts(Part, W, I, J, N) :- starts(Part, W, I, I, J, N).\n"
-    "starts(_, _, _, J, J, 0) :- !.\n"
-    "starts(Part, W, I, K, J, N) :-\n"
-    "    K1 is K + 1, starts(Part, W, I, K1, J, M),\n"
-    "    ( from_to(K1, J, B), call(Part, W, K, B) -> N is M + 1 ; N = M ).\n"
-    "\n"
-    "% Some source such that what separates it from every destination meets the separator.\n"
-    "distance(Source, Destination, Separator, W, I, J) :-\n"
-    "    I < J, call(Source, W, I, J), W = w(N, _),\n"
-    "    \\+ ( stretch(0, N, A, B), call(Destination, W, A, B), gap(I, J, A, B, G, H), \\+ call(Separator, W, G, H) "
-    ").\n"
-    "% Some destination, or every one, that shares no tray with the source is at a gap that meets the separator.\n"
-    "near(Source, Destination, Separator, W, I, J) :-\n"
-    "    I < J, call(Source, W, I, J), around(Destination, W, I, J, G, H), call(Separator, W, G, H), !.\n"
-    "far(Source, Destination, Separator, W, I, J) :-\n"
-    "    I < J, call(Source, W, I, J),\n"
-    "    \\+ ( around(Destination, W, I, J, G, H), \\+ call(Separator, W, G, H) ).\n"
-    "around(Destination, W, I, J, G, H) :-\n"
-    "    W = w(N, _), stretch(0, N, A, B), ( B =< I ; J =< A ), call(Destination, W, A, B), gap(I, J, A, B, G, H).\n"
-    "gap(I, _, _, B, B, I) :- B =< I, !.\n"
-    "gap(_, J, A, _, J, A) :- J =< A, !.\n"
-    "gap(I, _, _, _, I, I).\n";
-
-/* Built-in predicates of one argument (ISO/IEC 13211-1, Cor. 1 to 3), which a program may not define. */
-static const char *const built_in[] = {
-    "abolish",       "acyclic_term",    "assert",        "asserta",    "assertz",      "atom",
-    "atomic",        "callable",        "call",          "close",      "compound",     "consult",
-    "discontiguous", "dynamic",         "ensure_loaded", "float",      "flush_output", "get_byte",
-    "get_char",      "get_code",        "ground",        "halt",       "include",      "initialization",
-    "integer",       "is_list",         "listing",       "multifile",  "nl",           "nonvar",
-    "not",           "number",          "once",          "op",         "peek_byte",    "peek_char",
-    "peek_code",     "print",           "put_byte",      "put_char",   "put_code",     "read",
-    "retract",       "retractall",      "set_input",     "set_output", "throw",        "var",
-    "write",         "write_canonical", "writeq",
-};
-
-/* Is this a built-in predicate of one argument, which a program may not define? */
-static bool prolog_built_in(const char *name)
+void tn_prolog_put(writing *w, const char *text)
 {
-    for (size_t i = 0; i < sizeof built_in / sizeof *built_in; i++)
-        if (strcmp(built_in[i], name) == 0)
-            return true;
-    return false;
+    w->ok = w->ok && tn_buffer_append(w->out, text, strlen(text));
 }
-
-/* A program being written. */
-typedef struct writing {
-    const tn_schema *schema;
-    const tn_module *module;
-    tn_buffer *out;
-    bool ok;
-    bool *left_out; /* [rules]: they say what the prelude has no words for */
-} writing;
 
 static void put(writing *w, const char *text)
 {
-    w->ok = w->ok && tn_buffer_append(w->out, text, strlen(text));
+    tn_prolog_put(w, text);
 }
 
 /* The rest of a comment, on one line whatever an author wrote. */
@@ -137,8 +31,7 @@ static void put_comment(writing *w, const char *text)
         put(w, (unsigned char)*c < 0x20 ? " " : (char[]){*c, '\0'});
 }
 
-/* A quoted atom. */
-static void put_atom(writing *w, const char *text, const char *more)
+void tn_prolog_put_atom(writing *w, const char *text, const char *more)
 {
     put(w, "'");
     for (const char *part = text; part; part = part == text && more ? more : NULL)
@@ -150,13 +43,18 @@ static void put_atom(writing *w, const char *text, const char *more)
     put(w, "'");
 }
 
-/* The predicate of a function's part: 'rule whole', 'rule whole 3'. */
-static void put_name(writing *w, uint32_t function, uint32_t part)
+static void put_atom(writing *w, const char *text, const char *more)
+{
+    tn_prolog_put_atom(w, text, more);
+}
+
+void tn_prolog_put_name(writing *w, uint32_t function, uint32_t part)
 {
     char suffix[64];
     const tn_function_record *record = &w->module->FUNCTION_records[function];
     uint32_t rule = tn_function_rule(w->module, function);
     const char *kind = tn_function_is_whole(record) ? "whole" : "somewhere";
+    w->asked[function] |= part == 0;
     if (part == 0 && rule != UINT32_MAX)
         snprintf(suffix, sizeof suffix, " %s", kind);
     else if (part == 0)
@@ -164,6 +62,11 @@ static void put_name(writing *w, uint32_t function, uint32_t part)
     else
         snprintf(suffix, sizeof suffix, " %s %" PRIu32 " %" PRIu32, kind, function, part);
     put_atom(w, tn_text(w->module, record->name), suffix);
+}
+
+static void put_name(writing *w, uint32_t function, uint32_t part)
+{
+    tn_prolog_put_name(w, function, part);
 }
 
 /* ---- conditions */
@@ -250,7 +153,7 @@ static bool is_free(const writing *w, uint32_t spec, uint32_t field)
     return true;
 }
 
-static void put_tray(writing *w, uint32_t spec)
+void tn_prolog_put_tray(writing *w, uint32_t spec)
 {
     put(w, "J =:= I + 1, tray_at(W, I, tray(");
     for (uint32_t f = 0; f < w->schema->field_count; f++)
@@ -335,12 +238,14 @@ static void put_gaps(writing *w, const char *predicate, const tn_parts *parts, u
     put(w, "W, I, J)");
 }
 
-static void put_body(writing *w, const tn_parts *parts, uint32_t function, uint32_t part)
+static tn_status put_body(writing *w, const tn_parts *parts, uint32_t function, uint32_t part, tn_error *error)
 {
     const tn_part *it = &parts->parts[part];
     switch (it->kind) {
+    case TN_PART_COMPARISON:
+        return tn_prolog_put_comparison(w, it, error);
     case TN_PART_TRAY:
-        put_tray(w, it->spec);
+        tn_prolog_put_tray(w, it->spec);
         break;
     case TN_PART_RULE:
         put_name(w, it->function, 0);
@@ -397,9 +302,10 @@ static void put_body(writing *w, const tn_parts *parts, uint32_t function, uint3
         put_counted(w, parts, function, part);
         break;
     }
+    return TN_OK;
 }
 
-static void put_part(writing *w, const tn_parts *parts, uint32_t function, uint32_t part)
+static tn_status put_part(writing *w, const tn_parts *parts, uint32_t function, uint32_t part, tn_error *error)
 {
     char text[TN_PART_TEXT_MAX];
     tn_part_text(parts, part, text, sizeof text);
@@ -416,48 +322,111 @@ static void put_part(writing *w, const tn_parts *parts, uint32_t function, uint3
         put_name(w, function, parts->count);
         put(w, "(W, I, J) :- ");
     }
-    put_body(w, parts, function, part);
+    tn_status status = put_body(w, parts, function, part, error);
     put(w, ", !.\n");
+    return status;
 }
 
-/* What the predicates of the prelude have no words for; NULL where they have words for all of it. *part is which. */
-static const char *no_words(const writing *w, const tn_parts *parts, uint32_t *part)
+/* Do the predicates of the prelude have words for the part? */
+static bool has_words(const writing *w, const tn_part *part)
 {
-    for (*part = 0; *part < parts->count; ++*part) {
-        const tn_part *it = &parts->parts[*part];
-        if (it->kind == TN_PART_COMPARISON)
-            return "a comparison of sums";
-        if (it->kind == TN_PART_RULE && it->rule == UINT32_MAX)
-            return "a call of a rule with parameters";
-        if (it->kind == TN_PART_RULE && w->left_out[it->rule])
-            return "a rule that is not exported";
+    switch (part->kind) {
+    case TN_PART_COMPARISON:
+        return tn_prolog_says_comparison(w, part);
+    case TN_PART_RULE:
+        return w->said[part->function];
+    case TN_PART_TRAY:
+    case TN_PART_AND:
+    case TN_PART_OR:
+    case TN_PART_NOT:
+    case TN_PART_NEIGHBOUR:
+    case TN_PART_SYMMETRIC:
+    case TN_PART_QUANTITY:
+    case TN_PART_SUM:
+    case TN_PART_OCCURRENCES:
+    case TN_PART_MANY:
+    case TN_PART_REPEAT:
+    case TN_PART_DISTANCE:
+    case TN_PART_NEAR:
+    case TN_PART_FAR:
+    case TN_PART_WHERE:
+        return true;
+    default:
+        return false;
     }
-    return NULL;
 }
 
-static void put_parts(writing *w, const tn_parts *parts, uint32_t function)
+static tn_status says(const writing *w, uint32_t function, bool *said, tn_error *error)
 {
-    for (uint32_t part = 0; part < parts->count; part++)
-        put_part(w, parts, function, part);
-    put(w, "\n");
+    tn_parts parts = {0};
+    tn_status status = tn_parts_read(w->module, function, &parts, error);
+    *said = status == TN_OK;
+    for (uint32_t part = 0; *said && part < parts.count; part++)
+        *said = has_words(w, &parts.parts[part]);
+    tn_parts_clear(&parts);
+    return status == TN_MEMORY ? status : TN_OK;
 }
 
-/* The function of a clause that is no rule of its own. */
+/* Finds out which functions can be said: all are taken to be, until one that they call is not. */
+static tn_status find_said(writing *w, tn_error *error)
+{
+    for (uint32_t f = 0; f < w->module->FUNCTION_count; f++) {
+        const tn_function_record *record = &w->module->FUNCTION_records[f];
+        w->said[f] = tn_function_is_whole(record) || record->kind == TN_FUNCTION_HOLDS;
+    }
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (uint32_t f = 0; f < w->module->FUNCTION_count; f++) {
+            bool said = w->said[f];
+            tn_status status = said ? says(w, f, &said, error) : TN_OK;
+            if (status != TN_OK)
+                return status;
+            changed |= said != w->said[f];
+            w->said[f] = said;
+        }
+    }
+    return TN_OK;
+}
+
+static tn_status put_parts(writing *w, const tn_parts *parts, uint32_t function, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (uint32_t part = 0; status == TN_OK && part < parts->count; part++)
+        status = put_part(w, parts, function, part, error);
+    put(w, "\n");
+    return status;
+}
+
 static tn_status put_function(writing *w, uint32_t function, tn_error *error)
 {
     tn_parts parts;
-    uint32_t part;
     tn_status status = tn_parts_read(w->module, function, &parts, error);
-    const char *lacks = status == TN_OK ? no_words(w, &parts, &part) : NULL;
-    if (lacks) {
-        status = tn_fail(error, TN_INVALID, E_NO_PARTS, "a clause with %s is not exported to Prolog", lacks);
-        tn_error_help(error, "it can be matched, explained, drawn and counted");
-        if (error)
-            error->code_offset = parts.parts[part].root;
-    } else if (status == TN_OK) {
-        put_parts(w, &parts, function);
-    }
+    w->written[function] = true;
+    if (status == TN_OK)
+        status = put_parts(w, &parts, function, error);
     tn_parts_clear(&parts);
+    return status;
+}
+
+/* Functions and sums that are named, and are not there yet: what is written may name others. */
+static tn_status put_asked(writing *w, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (bool more = true; more && status == TN_OK;) {
+        more = false;
+        for (uint32_t s = 0; status == TN_OK && s < w->module->SUM_count; s++) {
+            if (!w->asked_sums[s] || w->written_sums[s])
+                continue;
+            more = w->written_sums[s] = true;
+            status = tn_prolog_put_sum(w, s, error);
+        }
+        for (uint32_t f = 0; status == TN_OK && f < w->module->FUNCTION_count; f++) {
+            if (!w->asked[f] || w->written[f])
+                continue;
+            more = true;
+            status = put_function(w, f, error);
+        }
+    }
     return status;
 }
 
@@ -467,7 +436,11 @@ static tn_status put_function(writing *w, uint32_t function, tn_error *error)
 static void put_own_name(writing *w, const tn_rule_record *rule)
 {
     const char *name = tn_text(w->module, rule->name);
-    if (prolog_built_in(name)) {
+    if (w->fetch && strcmp(name, "prune_plan") == 0) {
+        put(w, "% prune_plan/1 asks for the library: match_plan/2 asks for the rule\n\n");
+        return;
+    }
+    if (tn_prolog_built_in(name)) {
         put(w, "% a built-in predicate has this name: match_plan/2 asks for the rule\n\n");
         return;
     }
@@ -477,44 +450,30 @@ static void put_own_name(writing *w, const tn_rule_record *rule)
     put(w, "(W, 0, N), !.\n\n");
 }
 
-static void put_heading(writing *w, const tn_rule_record *rule, const char *lacks)
+static bool says_rule(const writing *w, const tn_rule_record *rule)
+{
+    return w->said[rule->whole] && w->said[rule->holds];
+}
+
+static void put_heading(writing *w, const tn_rule_record *rule)
 {
     const char *name = tn_text(w->module, rule->name), *doc = tn_text(w->module, rule->doc);
     put(w, "% ---- ");
     put(w, name);
     put(w, *doc ? ": " : "");
     put_comment(w, doc);
-    if (lacks) {
-        put(w, "\n% left out, as it has ");
-        put(w, lacks);
-        put(w, "\n");
-    }
-    put(w, "\n");
+    put(w, says_rule(w, rule) ? "\n" : "\n% left out: this program has no words for all of it\n\n");
 }
 
 static tn_status put_rule(writing *w, uint32_t index, tn_error *error)
 {
     const tn_rule_record *rule = &w->module->RULE_records[index];
-    tn_parts whole = {0}, holds = {0};
-    uint32_t part;
-    tn_status status = tn_parts_read(w->module, rule->whole, &whole, error);
-    if (status == TN_OK)
-        status = tn_parts_read(w->module, rule->holds, &holds, error);
-    if (status == TN_OK) {
-        const char *lacks = no_words(w, &whole, &part);
-        if (!lacks)
-            lacks = no_words(w, &holds, &part);
-        put_heading(w, rule, lacks);
-        w->left_out[index] = lacks != NULL;
-        if (!lacks) {
-            put_own_name(w, rule);
-            put_parts(w, &whole, rule->whole);
-            put_parts(w, &holds, rule->holds);
-        }
-    }
-    tn_parts_clear(&whole);
-    tn_parts_clear(&holds);
-    return status;
+    put_heading(w, rule);
+    if (!says_rule(w, rule))
+        return TN_OK;
+    put_own_name(w, rule);
+    tn_status status = put_function(w, rule->whole, error);
+    return status == TN_OK ? put_function(w, rule->holds, error) : status;
 }
 
 /* Every rule by its name as an atom. */
@@ -523,7 +482,7 @@ static void put_rule_names(writing *w)
     put(w, "% ---- rules by name\n:- dynamic(rule_part/2).\n");
     for (size_t i = 0; i < w->module->RULE_count; i++) {
         const tn_rule_record *rule = &w->module->RULE_records[i];
-        if (&w->module->SCHEMA_records[rule->schema] != w->schema->record || w->left_out[i])
+        if (&w->module->SCHEMA_records[rule->schema] != w->schema->record || !says_rule(w, rule))
             continue;
         put(w, "rule_part(");
         put_atom(w, tn_text(w->module, rule->name), NULL);
@@ -541,24 +500,13 @@ static uint32_t preferred(const tn_module *module, const tn_library_record *libr
     return tn_preferred_term(module, library, i)->part;
 }
 
-/* *all: can every preference of the library be said in Prolog? Else none is: a part of what they are worth together
- * means nothing. */
-static tn_status says_preferences(const writing *w, const tn_library_record *library, bool *all, tn_error *error)
+/* Can every preference of the library be said? Else none is: a part of what they are worth together means nothing. */
+static bool says_preferences(const writing *w, const tn_library_record *library)
 {
-    tn_status status = TN_OK;
-    *all = library->preference_count > 0;
-    for (uint32_t i = 0; status == TN_OK && *all && i < library->preference_count; i++) {
-        uint32_t function = preferred(w->module, library, i), rule = tn_function_rule(w->module, function), part;
-        tn_parts parts = {0};
-        if (rule == UINT32_MAX) {
-            status = tn_parts_read(w->module, function, &parts, error);
-            *all = status == TN_OK && !no_words(w, &parts, &part);
-            tn_parts_clear(&parts);
-        } else {
-            *all = !w->left_out[rule];
-        }
-    }
-    return status;
+    bool all = true;
+    for (uint32_t i = 0; i < library->preference_count; i++)
+        all = all && w->said[preferred(w->module, library, i)];
+    return all;
 }
 
 /* What a preference is worth, as two whole numbers. */
@@ -576,18 +524,18 @@ static void put_preference(writing *w, const tn_library_record *library, uint32_
 }
 
 /* *any: becomes true if the library's are said. */
-static tn_status put_preferences(writing *w, const tn_library_record *library, bool *any, tn_error *error)
+static void put_preferences(writing *w, const tn_library_record *library, bool *any)
 {
-    bool all;
-    tn_status status = says_preferences(w, library, &all, error);
-    if (!all && library->preference_count > 0)
+    bool all = says_preferences(w, library);
+    if (library->preference_count == 0)
+        return;
+    if (!all)
         put(w, "% Its preferences are left out: not all of them can be said here.\n");
     if (all && !*any)
         put(w, ":- discontiguous(preference/5).\n");
     for (uint32_t i = 0; all && i < library->preference_count; i++)
         put_preference(w, library, i);
     *any |= all;
-    return status;
 }
 
 static void put_clause(writing *w, const tn_library_record *library, const tn_clause_record *clause)
@@ -604,36 +552,13 @@ static void put_clause(writing *w, const tn_library_record *library, const tn_cl
 /* A library is nothing without one of its clauses. */
 static tn_status check_clause(const writing *w, const tn_clause_record *clause, tn_error *error)
 {
-    uint32_t rule = tn_function_rule(w->module, clause->holds);
-    if (rule == UINT32_MAX || !w->left_out[rule])
+    if (w->said[clause->holds])
         return TN_OK;
-    tn_status status = tn_fail(error, TN_INVALID, E_NO_PARTS, "the rule `%s` of a clause is not exported to Prolog",
-                               tn_text(w->module, w->module->RULE_records[rule].name));
-    tn_error_help(error,
-                  "it compares sums or calls a rule with parameters: it can be matched, explained, drawn and counted");
-    return status;
-}
-
-/* What clauses of these libraries say that is no rule of its own. Those of libraries of houses are not about plans. */
-static tn_status put_clauses(writing *w, tn_error *error)
-{
-    const tn_module *module = w->module;
-    bool *asked = calloc((size_t)module->FUNCTION_count + 1, sizeof *asked);
-    tn_status status = asked ? TN_OK : tn_fail_memory(error);
-    for (uint32_t l = 0; status == TN_OK && l < module->LIBRARY_count; l++) {
-        const tn_library_record *library = &module->LIBRARY_records[l];
-        bool ours = &module->SCHEMA_records[library->schema] == w->schema->record;
-        for (uint32_t i = 0; ours && i < library->clause_count; i++)
-            asked[module->CLAUSE_records[library->clause_first + i].holds] = true;
-        bool prefers = false;
-        status = ours ? says_preferences(w, library, &prefers, error) : TN_OK;
-        for (uint32_t i = 0; prefers && i < library->preference_count; i++)
-            asked[preferred(module, library, i)] = true;
-    }
-    for (uint32_t f = 0; status == TN_OK && f < module->FUNCTION_count; f++)
-        if (asked[f] && tn_function_rule(module, f) == UINT32_MAX)
-            status = put_function(w, f, error);
-    free(asked);
+    tn_status status = tn_fail(error, TN_INVALID, E_NO_PARTS, "the clause `%s` is not exported to Prolog",
+                               tn_text(w->module, clause->name));
+    tn_error_help(error, "the program has no words for all of it: it can be matched, explained, drawn and counted");
+    if (error)
+        error->code_offset = w->module->FUNCTION_records[clause->holds].code_begin;
     return status;
 }
 
@@ -660,8 +585,7 @@ static tn_status put_libraries(writing *w, tn_error *error)
             put_clause(w, library, &module->CLAUSE_records[library->clause_first + i]);
             status = check_clause(w, &module->CLAUSE_records[library->clause_first + i], error);
         }
-        if (status == TN_OK)
-            status = put_preferences(w, library, &prefers, error);
+        put_preferences(w, library, &prefers);
     }
     put(w, "\nprune_plan(Library, Clause, Trays) :-\n"
            "    plan_of(Trays, W), W = w(N, _), prune_clause(Library, Clause, Part), call(Part, W, 0, N).\n"
@@ -678,7 +602,7 @@ static tn_status put_libraries(writing *w, tn_error *error)
                "worth_together([], P, Q, P, Q).\n"
                "worth_together([A-B|Met], P0, Q0, P, Q) :-\n"
                "    P1 is P0 * B + A * Q0, Q1 is Q0 * B, worth_together(Met, P1, Q1, P, Q).\n\n");
-    return status == TN_OK ? put_clauses(w, error) : status;
+    return status;
 }
 
 static void put_lengths(writing *w)
@@ -724,37 +648,108 @@ static tn_status put_rules(writing *w, tn_error *error)
     return status;
 }
 
-/* Marks the rules that are left out, and those that call one, until there are no more. */
-static tn_status find_left_out(writing *w, tn_error *error)
+/* ---- fetch/3 and prune_plan/1, as the paper's rules ask for them */
+
+/* fetch(tray(_, V2, _), 'width', ...): *variable is V2. */
+static void put_fetch(writing *w, uint32_t field, const char *before, const char *after)
 {
-    tn_buffer nothing = {0}, *out = w->out;
-    tn_status status = TN_OK;
-    w->out = &nothing;
-    for (uint32_t before = 1, found = 0; status == TN_OK && found != before;) {
-        before = found;
-        found = 0;
-        nothing.size = 0;
-        status = put_rules(w, error);
-        for (uint32_t i = 0; i < w->module->RULE_count; i++)
-            found += w->left_out[i];
-    }
-    free(nothing.data);
-    w->out = out;
-    return status;
+    put(w, "fetch(tray(");
+    for (uint32_t f = 0; f < w->schema->field_count; f++)
+        w->ok = w->ok && (f == field ? tn_buffer_printf(w->out, "%sV", f ? ", " : "")
+                                     : tn_buffer_printf(w->out, "%s_", f ? ", " : ""));
+    put(w, "), ");
+    put(w, before);
+    put_atom(w, tn_text(w->module, w->schema->fields[field].name), NULL);
+    put(w, after);
 }
 
-tn_status tn_export_prolog(const tn_schema *schema, tn_buffer *out, tn_error *error)
+/* zone_of(V, Fill, Depth) of each value with a depth, zone_of(V, Fill) of all. */
+static void put_zone(writing *w, uint32_t field, bool depths)
 {
-    writing w = {schema, schema->module, out, true, calloc(schema->module->RULE_count + 1, sizeof(bool))};
-    if (!w.left_out)
+    for (uint32_t v = 0; v < w->schema->fields[field].value_count; v++) {
+        const tn_value_record *value = &w->schema->values[w->schema->value_start[field] + v];
+        const char *depth = tn_text(w->module, value->measure);
+        if (depths && !*depth)
+            continue;
+        w->ok = w->ok && tn_buffer_printf(w->out, "zone_%s(%" PRIu32 ", ", depths ? "depth" : "fill", field + 1);
+        put_atom(w, tn_text(w->module, value->spelling), NULL);
+        put(w, ", ");
+        put_atom(w, depths ? depth : tn_text(w->module, value->name), NULL);
+        put(w, ").\n");
+    }
+}
+
+static void put_accessors(writing *w)
+{
+    char goal[64];
+    put(w, "% ---- fetch(Tray, Field, Value): a zone's fill, of depth(ZONE) its depth; of a flag true or false\n"
+           ":- dynamic(zone_fill/3).\n:- dynamic(zone_depth/3).\n");
+    for (uint32_t f = 0; f < w->schema->field_count; f++) {
+        uint32_t kind = w->schema->fields[f].kind;
+        if (kind == TN_FIELD_FLAG) {
+            put_fetch(w, f, "", ", Set) :- ( V = '-' -> Set = false ; Set = true ).\n");
+        } else if (kind == TN_FIELD_ZONE) {
+            snprintf(goal, sizeof goal, ", Fill) :- zone_fill(%" PRIu32 ", V, Fill).\n", f + 1);
+            put_fetch(w, f, "", goal);
+            snprintf(goal, sizeof goal, "), Depth) :- zone_depth(%" PRIu32 ", V, Depth).\n", f + 1);
+            put_fetch(w, f, "depth(", goal);
+        } else {
+            put_fetch(w, f, "", ", V).\n");
+        }
+    }
+    for (uint32_t f = 0; f < w->schema->field_count; f++)
+        if (w->schema->fields[f].kind == TN_FIELD_ZONE) {
+            put_zone(w, f, false);
+            put_zone(w, f, true);
+        }
+}
+
+static void put_paper(writing *w, const char *library)
+{
+    put_accessors(w);
+    put(w, "\n% what a library does not keep is pruned\nprune_plan(Trays) :- \\+ keep_plan(");
+    if (library)
+        put_atom(w, library, NULL);
+    else
+        put(w, "_");
+    put(w, ", Trays).\n\n");
+}
+
+/* ---- the program */
+
+static tn_status write_program(writing *w, const tn_prolog_options *options, tn_error *error)
+{
+    put_beginning(w);
+    tn_status status = find_said(w, error);
+    if (status == TN_OK)
+        status = put_rules(w, error);
+    put_rule_names(w);
+    if (status == TN_OK)
+        status = put_libraries(w, error);
+    if (status == TN_OK)
+        status = put_asked(w, error);
+    if (options->fetch)
+        put_paper(w, options->library);
+    return status == TN_OK && !w->ok ? tn_fail_memory(error) : status;
+}
+
+tn_status tn_export_prolog(const tn_schema *schema, const tn_prolog_options *options, tn_buffer *out, tn_error *error)
+{
+    size_t functions = schema->module->FUNCTION_count + 1, sums = schema->module->SUM_count + 1;
+    bool *marks = calloc(3 * functions + 2 * sums, sizeof *marks);
+    if (!marks)
         return tn_fail_memory(error);
-    put_beginning(&w);
-    tn_status status = find_left_out(&w, error);
-    if (status == TN_OK)
-        status = put_rules(&w, error);
-    put_rule_names(&w);
-    if (status == TN_OK)
-        status = put_libraries(&w, error);
-    free(w.left_out);
-    return status == TN_OK && !w.ok ? tn_fail_memory(error) : status;
+    writing w = {.schema = schema,
+                 .module = schema->module,
+                 .out = out,
+                 .ok = true,
+                 .said = marks,
+                 .asked = marks + functions,
+                 .written = marks + 2 * functions,
+                 .asked_sums = marks + 3 * functions,
+                 .written_sums = marks + 3 * functions + sums,
+                 .fetch = options->fetch};
+    tn_status status = write_program(&w, options, error);
+    free(marks);
+    return status;
 }

@@ -10,9 +10,17 @@
 
 #include "runtime/plan/text/text.h"
 
-/* Appends the program of all rules and libraries of the schema's module that are about this schema. Rules that compare
- * sums or call rules with parameters are left out, and those that name such a rule; a comment says so. E_NO_PARTS where
- * a library's clause is one of these. Other errors as in tn_parts_read. */
-tn_status tn_export_prolog(const tn_schema *schema, tn_buffer *out, tn_error *error);
+typedef struct tn_prolog_options {
+    /* Also fetch(Tray, Field, Value) and prune_plan(Trays), of what the library does not keep: as the rules of the
+     * paper are written (A. Rau-Chaplin, T. J. Smedley: A Graphical Language for Generating Architectural Forms,
+     * Fig. 5). */
+    bool fetch;
+    const char *library; /* its name; NULL: whichever */
+} tn_prolog_options;
+
+/* Appends the program of all rules and libraries of the schema's module that are about this schema. What the program
+ * has no words for is left out, and a comment says so. E_NO_PARTS where a library's clause is such. Other errors as in
+ * tn_parts_read and tn_sum_new. */
+tn_status tn_export_prolog(const tn_schema *schema, const tn_prolog_options *options, tn_buffer *out, tn_error *error);
 
 #endif

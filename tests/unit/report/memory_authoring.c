@@ -119,7 +119,7 @@ static tn_status export(void *context, tn_buffer *out, tn_error *error)
     tn_classes *classes = NULL;
     tn_lowering *lowering = NULL;
     tn_dfa *dfa = NULL;
-    tn_status status = tn_export_prolog(rows->ready.schema, out, error);
+    tn_status status = tn_export_prolog(rows->ready.schema, &(tn_prolog_options){.fetch = true}, out, error);
     if (status == TN_OK)
         status = tn_classes_new(rows->ready.schema, &module->RULE_records[1].holds, 1, &classes, error);
     if (status == TN_OK)

@@ -1,0 +1,192 @@
+/* Sets of combinations, against trying all combinations. */
+#include "runtime/choices/choices.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "tests/support/test_rule.h"
+
+enum { FIELDS = 4, SETS = 24, ROOM = 4096 };
+static const uint32_t counts[FIELDS] = {3, 2, 5, 4};
+enum { BITS = 3 + 2 + 5 + 4, COMBINATIONS = 3 * 2 * 5 * 4 };
+
+/* Which combinations are in it, in order. */
+typedef struct plain_set {
+    bool in[COMBINATIONS];
+} plain_set;
+
+static uint32_t number_of(const uint8_t *values)
+{
+    uint32_t number = 0;
+    for (uint32_t f = 0; f < FIELDS; f++)
+        number = number * counts[f] + values[f];
+    return number;
+}
+
+static void values_of(uint32_t number, uint8_t *values)
+{
+    for (uint32_t f = FIELDS; f-- > 0;) {
+        values[f] = (uint8_t)(number % counts[f]);
+        number /= counts[f];
+    }
+}
+
+static bool is_within(const uint8_t *values, uint64_t mask)
+{
+    uint32_t start = 0;
+    for (uint32_t f = 0; f < FIELDS; f++) {
+        if (!(mask >> (start + values[f]) & 1))
+            return false;
+        start += counts[f];
+    }
+    return true;
+}
+
+static plain_set plain_box(uint64_t mask)
+{
+    plain_set set;
+    uint8_t values[FIELDS];
+    for (uint32_t n = 0; n < COMBINATIONS; n++) {
+        values_of(n, values);
+        set.in[n] = is_within(values, mask);
+    }
+    return set;
+}
+
+typedef struct seen {
+    plain_set set;
+    uint32_t count, last;
+    bool twice, unordered;
+} seen;
+
+static bool see(void *context, const uint8_t *values)
+{
+    seen *s = context;
+    uint32_t number = number_of(values);
+    s->unordered |= s->count > 0 && number <= s->last;
+    s->set.in[number] = true;
+    s->last = number;
+    s->count++;
+    return true;
+}
+
+static bool see_box(void *context, const uint64_t *mask)
+{
+    seen *s = context;
+    plain_set box = plain_box(*mask);
+    for (uint32_t n = 0; n < COMBINATIONS; n++) {
+        s->twice |= box.in[n] && s->set.in[n];
+        s->set.in[n] |= box.in[n];
+        s->count += box.in[n];
+    }
+    return true;
+}
+
+static void check(tn_choice_diagram *choices, tn_choice_set set, const plain_set *wanted)
+{
+    seen each = {0}, boxes = {0};
+    uint8_t first[FIELDS];
+    uint32_t count = 0, least = COMBINATIONS;
+    for (uint32_t n = COMBINATIONS; n-- > 0;) {
+        count += wanted->in[n];
+        least = wanted->in[n] ? n : least;
+    }
+    assert_int_not_equal(set, TN_CHOICE_LOST);
+    assert_int_equal(tn_choices_count(choices, set), count);
+    assert_true(tn_choices_each(choices, set, see, &each));
+    assert_true(tn_choices_boxes(choices, set, see_box, &boxes));
+    assert_memory_equal(&each.set, wanted, sizeof *wanted);
+    assert_memory_equal(&boxes.set, wanted, sizeof *wanted);
+    assert_false(each.unordered);
+    assert_false(boxes.twice);
+    assert_int_equal(tn_choices_first(choices, set, first), count > 0);
+    if (count > 0)
+        assert_int_equal(number_of(first), least);
+}
+
+static void test_sets(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 0; seed < 40; seed++) {
+        test_random random = {seed, 0};
+        tn_choice_diagram *choices = tn_choices_new(counts, FIELDS, TN_CHOICES_ROOM);
+        assert_non_null(choices);
+        tn_choice_set sets[SETS], copies[SETS], any;
+        plain_set plain[SETS], all = {0};
+        for (int i = 0; i < SETS; i++) {
+            uint32_t a = i ? test_random_below(&random, (uint32_t)i) : 0,
+                     b = i ? test_random_below(&random, (uint32_t)i) : 0;
+            uint64_t mask = test_random_below(&random, 1u << BITS) | test_random_below(&random, 1u << BITS);
+            int kind = i < 6 ? 0 : (int)test_random_below(&random, 4);
+            sets[i] = kind == 0   ? tn_choices_box(choices, &mask)
+                      : kind == 1 ? tn_choices_not(choices, sets[a])
+                      : kind == 2 ? tn_choices_and(choices, sets[a], sets[b])
+                                  : tn_choices_or(choices, sets[a], sets[b]);
+            plain[i] = plain_box(mask);
+            for (uint32_t n = 0; kind != 0 && n < COMBINATIONS; n++)
+                plain[i].in[n] = kind == 1   ? !plain[a].in[n]
+                                 : kind == 2 ? plain[a].in[n] && plain[b].in[n]
+                                             : plain[a].in[n] || plain[b].in[n];
+            check(choices, sets[i], &plain[i]);
+            for (int k = 0; k < i; k++) /* equal sets are one */
+                assert_int_equal(sets[k] == sets[i], memcmp(&plain[k], &plain[i], sizeof plain[i]) == 0);
+        }
+        for (int count = 0; count <= 5; count++) {
+            memcpy(copies, sets, sizeof sets);
+            any = tn_choices_any_of(choices, copies, (size_t)count);
+            check(choices, any, &all);
+            for (uint32_t n = 0; n < COMBINATIONS; n++)
+                all.in[n] |= plain[count].in[n];
+        }
+        tn_choices_free(choices);
+    }
+}
+
+/* Fields that have to be the same, the first with the last and so on: no small diagram in this order. */
+static void test_room(void **state)
+{
+    (void)state;
+    enum { PAIRS = 12 };
+    uint32_t two[2 * PAIRS];
+    for (int f = 0; f < 2 * PAIRS; f++)
+        two[f] = 2;
+    tn_choice_diagram *choices = tn_choices_new(two, 2 * PAIRS, ROOM);
+    assert_non_null(choices);
+    tn_choice_set same = TN_CHOICE_ALL;
+    for (int f = 0; f < PAIRS; f++) {
+        uint64_t all = (UINT64_C(1) << 4 * PAIRS) - 1, pair = UINT64_C(3) << 2 * f | UINT64_C(3) << 2 * (PAIRS + f);
+        uint64_t no = (all & ~pair) | UINT64_C(1) << 2 * f | UINT64_C(1) << 2 * (PAIRS + f),
+                 yes = (all & ~pair) | UINT64_C(2) << 2 * f | UINT64_C(2) << 2 * (PAIRS + f);
+        same = tn_choices_and(choices, same,
+                              tn_choices_or(choices, tn_choices_box(choices, &no), tn_choices_box(choices, &yes)));
+    }
+    assert_int_equal(same, TN_CHOICE_LOST);
+    assert_true(tn_choices_full(choices));
+    assert_int_equal(tn_choices_not(choices, same), TN_CHOICE_LOST);
+    tn_choices_free(choices);
+}
+
+/* 64 fields of 255 values: more than can be counted. */
+static void test_very_many(void **state)
+{
+    (void)state;
+    uint32_t many[64];
+    for (int f = 0; f < 64; f++)
+        many[f] = 255;
+    tn_choice_diagram *choices = tn_choices_new(many, 64, TN_CHOICES_ROOM);
+    assert_non_null(choices);
+    assert_true(tn_choices_count(choices, TN_CHOICE_ALL) == UINT64_MAX);
+    assert_int_equal(tn_choices_count(choices, TN_CHOICE_NONE), 0);
+    tn_choices_free(choices);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_sets), cmocka_unit_test(test_room),
+                                       cmocka_unit_test(test_very_many)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
