@@ -1,6 +1,5 @@
-/* The tokens of a file as a formatter sees them, and what the notations share in laying them out. Internal to
- * format*.c.
- */
+/* Laying out files: their tokens as a formatter sees them, what the notations share in laying them out, and the text
+ * that a formatter writes into. */
 #ifndef TARTAN_COMPILER_COMMON_LAYOUT_H
 #define TARTAN_COMPILER_COMMON_LAYOUT_H
 

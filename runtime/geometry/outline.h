@@ -1,4 +1,4 @@
-/* Does a closed line in the plane cross itself? (internal to faults.c) */
+/* Does a closed line in the plane cross itself? */
 #ifndef TARTAN_GROWTH_OUTLINE_H
 #define TARTAN_GROWTH_OUTLINE_H
 
