@@ -40,12 +40,6 @@ static inline pair product(double a, double b)
     return (pair){p, ((ah * bh - p) + ah * bl + al * bh) + al * bl};
 }
 
-static inline pair pair_add(pair a, pair b)
-{
-    pair s = sum(a.high, b.high);
-    return quick_sum(s.high, s.low + (a.low + b.low));
-}
-
 static inline pair pair_divide(pair a, pair b)
 {
     double over = 1 / b.high, q = a.high * over;
