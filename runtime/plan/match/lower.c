@@ -890,7 +890,7 @@ static tn_status lower_until(tn_lowering *lowering, tn_term *term, uint32_t form
     size_t at = 0;
     while (at < term->count && term->nodes[at].offset != offset)
         at++;
-    if (at == term->count || term->nodes[at].plain)
+    if (at == term->count || (at > 0 && term->nodes[at - 1].plain)) /* at the plan's level operands are no relations */
         return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "an instruction that makes no relation");
     uint8_t pops = tn_code_effect((uint8_t)term->nodes[at].code.opcode).pops;
     term->count = at;
