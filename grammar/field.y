@@ -63,7 +63,7 @@ file
 statements
     : %empty
     | statements statement
-    | statements error                      { tn_field_lost(parse); }
+    | statements error                      { parse->damaged = true; }
     ;
 
 statement
@@ -130,7 +130,7 @@ static tn_expression *mesh(tn_growth_parse *parse, tn_span span, tn_field_text n
     if (strcmp(name.text ? name.text : "", "distance") != 0) {
         tn_diagnostic *d = tn_report(parse->diagnostics, E_UNEXPECTED, path.span, "only `distance` takes a text");
         tn_help(parse->diagnostics, d, "write `distance(\"hull.obj\")`");
-        tn_field_lost(parse);
+        parse->damaged = true;
     }
     tn_expression *e = tn_expression_name(parse->arena, span, path.text);
     if (e) {
@@ -235,6 +235,6 @@ tn_field_file *tn_parse_field(tn_arena *arena, tn_diagnostics *diagnostics, uint
         return NULL;
     int outcome = tn_field_parse(&parse, scanner);
     tn_field_lexer_free(scanner);
-    result->damaged |= outcome != 0;
+    result->damaged = parse.damaged || outcome != 0;
     return tn_arena_failed(arena) ? NULL : result; /* deeper than the parser goes: has been said */
 }

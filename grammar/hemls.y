@@ -66,14 +66,14 @@ static void add_setting(tn_growth_parse *parse, tn_hemls_line_kind kind, tn_span
 file
     : lines
     | lines line
-    | lines error                           { tn_hemls_lost_line(parse); }
+    | lines error                           { parse->damaged = true; }
     ;
 
 lines
     : %empty
     | lines END_OF_LINE
     | lines line END_OF_LINE
-    | lines error END_OF_LINE               { tn_hemls_lost_line(parse); yyerrok; }
+    | lines error END_OF_LINE               { parse->damaged = true; yyerrok; }
     ;
 
 line
@@ -212,6 +212,6 @@ tn_hemls_file *tn_parse_hemls(tn_arena *arena, tn_diagnostics *diagnostics, uint
         return NULL;
     int outcome = tn_hemls_parse(&parse, scanner);
     tn_hemls_lexer_free(scanner);
-    result->damaged |= outcome != 0;
+    result->damaged = parse.damaged || outcome != 0;
     return outcome == 2 || tn_arena_failed(arena) ? NULL : result;
 }

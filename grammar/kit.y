@@ -106,13 +106,13 @@ statements
     | statements TEST NAME OPEN_BRACE EXPECT conditions END CLOSE_BRACE
                                             { tn_kit_add(parse, node(parse, TN_KIT_TEST, tn_span_join(@2, @8), $3, $6)); }
     | statements PART part_name doc OPEN_BRACE features error CLOSE_BRACE
-                                            { yyerrok; tn_kit_lost(parse); }
+                                            { yyerrok; parse->damaged = true; }
     | statements MODEL NAME doc OPEN_BRACE lines error CLOSE_BRACE
-                                            { yyerrok; tn_kit_lost(parse); }
+                                            { yyerrok; parse->damaged = true; }
     | statements TEST NAME OPEN_BRACE error CLOSE_BRACE
-                                            { yyerrok; tn_kit_lost(parse); }
-    | statements error END                        { yyerrok; tn_kit_lost(parse); }
-    | statements error CLOSE_BRACE                { yyerrok; tn_kit_lost(parse); }
+                                            { yyerrok; parse->damaged = true; }
+    | statements error END                        { yyerrok; parse->damaged = true; }
+    | statements error CLOSE_BRACE                { yyerrok; parse->damaged = true; }
     ;
 
 doc
@@ -147,7 +147,7 @@ connector
 features
     : %empty                                { $$ = no_nodes; }
     | features feature END                  { $$ = tn_kit_nodes_add($1, $2); }
-    | features error END                    { $$ = $1; yyerrok; tn_kit_lost(parse); }
+    | features error END                    { $$ = $1; yyerrok; parse->damaged = true; }
     ;
 
 feature
@@ -260,7 +260,7 @@ placed
 lines
     : %empty                                { $$ = no_nodes; }
     | lines line END                        { $$ = tn_kit_nodes_add($1, $2); }
-    | lines error END                       { $$ = $1; yyerrok; tn_kit_lost(parse); }
+    | lines error END                       { $$ = $1; yyerrok; parse->damaged = true; }
     ;
 
 line
@@ -525,7 +525,7 @@ static tn_kit_file *parse_text(tn_arena *arena, tn_diagnostics *diagnostics, uin
         return NULL;
     int outcome = tn_kit_parse(&parse, scanner);
     tn_kit_lexer_free(scanner);
-    result->damaged |= outcome != 0;
+    result->damaged = parse.damaged || outcome != 0;
     return tn_arena_failed(arena) ? NULL : result; /* deeper than the parser goes: has been said */
 }
 

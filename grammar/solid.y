@@ -91,9 +91,9 @@ file
     | file SOLID NAME doc base OPEN_BRACE statements CLOSE_BRACE
                                             { yyerrok; end_design(parse, $7, $3, $4, $5, tn_span_join(@2, @8)); }
     | file SOLID error OPEN_BRACE statements CLOSE_BRACE
-                                            { yyerrok; tn_solid_lost(parse); }
-    | file error END                        { yyerrok; tn_solid_lost(parse); }
-    | file error CLOSE_BRACE                { yyerrok; tn_solid_lost(parse); }
+                                            { yyerrok; parse->damaged = true; }
+    | file error END                        { yyerrok; parse->damaged = true; }
+    | file error CLOSE_BRACE                { yyerrok; parse->damaged = true; }
     ;
 
 doc
@@ -109,7 +109,7 @@ base
 statements
     : %empty                                { $$ = tn_solid_design_new(parse); if (!$$) YYNOMEM; }
     | statements statement end              { $$ = $1; tn_solid_add_item($$, $2); }
-    | statements error END                  { $$ = $1; yyerrok; tn_solid_lost(parse); }
+    | statements error END                  { $$ = $1; yyerrok; parse->damaged = true; }
     ;
 
 /* A forgotten `;` is said where it belongs, and the next statement is read as one. */
@@ -315,7 +315,7 @@ static tn_solid_entry *entry_of_axis(tn_growth_parse *parse, tn_solid_text axis)
     if (entry->axis == 3) {
         tn_diagnostic *d = tn_report(parse->diagnostics, E_UNEXPECTED, axis.span, "`%.40s` is no axis", axis.text ? axis.text : "");
         tn_help(parse->diagnostics, d, "axes are x, y and z: `symmetry x, z;`");
-        tn_solid_lost(parse);
+        parse->damaged = true;
     }
     return entry;
 }
@@ -441,6 +441,6 @@ tn_solid_file *tn_parse_solid(tn_arena *arena, tn_diagnostics *diagnostics, uint
         return NULL;
     int outcome = tn_solid_parse(&parse, scanner);
     tn_solid_lexer_free(scanner);
-    result->damaged |= outcome != 0;
+    result->damaged = parse.damaged || outcome != 0;
     return tn_arena_failed(arena) ? NULL : result; /* deeper than the parser goes: has been said */
 }

@@ -78,7 +78,7 @@ static tn_study_vector same(tn_decimal n);
 file
     : %empty
     | file statement                        { tn_study_add(parse, $2); }
-    | file error                            { tn_study_lost(parse); }
+    | file error                            { parse->damaged = true; }
     ;
 
 statement
@@ -378,6 +378,6 @@ tn_study_file *tn_parse_study(tn_arena *arena, tn_diagnostics *diagnostics, uint
         return NULL;
     int outcome = tn_study_parse(&parse, scanner);
     tn_study_lexer_free(scanner);
-    result->damaged |= outcome != 0;
+    result->damaged = parse.damaged || outcome != 0;
     return tn_arena_failed(arena) ? NULL : result; /* deeper than the parser goes: has been said */
 }

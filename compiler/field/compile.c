@@ -82,12 +82,6 @@ void tn_field_add_bare(tn_growth_parse *parse, tn_expression *body)
                         (tn_field_parameters){0}, body);
 }
 
-void tn_field_lost(tn_growth_parse *parse)
-{
-    tn_field_file *file = parse->result;
-    file->damaged = true;
-}
-
 /* ---- laying out .field files: a statement a line; a long expression goes on in the next lines, indented */
 
 enum { CONTINUED = 4 /* indent of what goes on in the next line */ };

@@ -91,7 +91,6 @@ void tn_field_define(tn_growth_parse *parse, tn_field_statement kind, tn_span sp
 void tn_field_add_use(tn_growth_parse *parse, tn_field_text path);
 void tn_field_set(tn_growth_parse *parse, tn_field_setting setting);
 void tn_field_add_bare(tn_growth_parse *parse, tn_expression *body);
-void tn_field_lost(tn_growth_parse *parse);
 
 /* The name of the function that places a surface elsewhere: no other can be called so, being a word of the language. */
 #define TN_FIELD_AT_NAME "at"

@@ -64,12 +64,6 @@ void tn_hemls_add_line(tn_growth_parse *parse, tn_hemls_line *line)
     TN_CHAIN(file, line);
 }
 
-void tn_hemls_lost_line(tn_growth_parse *parse)
-{
-    tn_hemls_file *file = parse->result;
-    file->damaged = true;
-}
-
 /* ---- what the lexers share */
 
 bool tn_growth_readable(tn_growth_parse *parse)

@@ -111,7 +111,8 @@ typedef struct tn_growth_parse {
     bool evolves;      /* the last unknown word is a setting of an evolution */
     bool asks;         /* of a .kit text: it is conditions alone */
     bool reported;     /* the line at hand was complained of already */
-    void *result;      /* tn_hemls_file or tn_study_file */
+    bool damaged;      /* something of the file is missing because of errors already reported */
+    void *result;      /* the file of the notation, such as a tn_hemls_file */
     tn_tokens *tokens; /* where the lexer leaves what it read, or NULL */
     tn_lexer_pool pool;
 } tn_growth_parse;
@@ -134,7 +135,6 @@ tn_hemls_alternative *tn_hemls_alternative_new(tn_growth_parse *parse, tn_span s
 tn_hemls_alternatives tn_hemls_alternatives_add(tn_hemls_alternatives list, tn_hemls_alternative *one);
 tn_hemls_line *tn_hemls_line_new(tn_growth_parse *parse, tn_hemls_line_kind kind, tn_span span);
 void tn_hemls_add_line(tn_growth_parse *parse, tn_hemls_line *line);
-void tn_hemls_lost_line(tn_growth_parse *parse);
 
 /* ---- what the lexers of growth share */
 

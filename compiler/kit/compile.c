@@ -50,12 +50,6 @@ void tn_kit_add_use(tn_growth_parse *parse, tn_kit_text path)
     TN_CHAIN(&file->uses, use);
 }
 
-void tn_kit_lost(tn_growth_parse *parse)
-{
-    tn_kit_file *file = parse->result;
-    file->damaged = true;
-}
-
 /* ---- laying out .kit files: a statement a line; one that is too long goes on where its next part begins */
 
 /* box( and count(. */

@@ -134,7 +134,6 @@ tn_kit_nodes tn_kit_nodes_add(tn_kit_nodes list, tn_kit_node *node);
 tn_kit_node *tn_kit_space_of(tn_growth_parse *parse, tn_kit_kind kind, tn_span span, tn_kit_node *a, tn_kit_node *b);
 void tn_kit_add(tn_growth_parse *parse, tn_kit_node *node);
 void tn_kit_add_use(tn_growth_parse *parse, tn_kit_text path);
-void tn_kit_lost(tn_growth_parse *parse);
 
 static inline bool tn_kit_given(const tn_kit_length *length)
 {

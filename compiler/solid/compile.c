@@ -71,12 +71,6 @@ void tn_solid_add_use(tn_growth_parse *parse, tn_solid_text path)
     TN_CHAIN(&file->uses, use);
 }
 
-void tn_solid_lost(tn_growth_parse *parse)
-{
-    tn_solid_file *file = parse->result;
-    file->damaged = true;
-}
-
 /* Is this a word that starts a statement of a design? */
 static bool solid_heads(const char *text, size_t size)
 {

@@ -131,7 +131,6 @@ tn_solid_design *tn_solid_design_new(tn_growth_parse *parse);
 void tn_solid_add_item(tn_solid_design *design, tn_solid_item *item);
 void tn_solid_add_design(tn_growth_parse *parse, tn_solid_design *design);
 void tn_solid_add_use(tn_growth_parse *parse, tn_solid_text path);
-void tn_solid_lost(tn_growth_parse *parse);
 
 /* ---- meaning */
 

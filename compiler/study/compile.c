@@ -39,12 +39,6 @@ void tn_study_add(tn_growth_parse *parse, tn_study_item *item)
     TN_CHAIN(file, item);
 }
 
-void tn_study_lost(tn_growth_parse *parse)
-{
-    tn_study_file *file = parse->result;
-    file->damaged = true;
-}
-
 bool tn_study_heads(const char *text, size_t size)
 {
     return tn_vocabulary_find(&tn_study_words, text, size, TN_STUDY_AT(STATEMENT), TN_AS_KEYWORDS | TN_AS_NAMED) !=

@@ -101,7 +101,6 @@ tn_study_item *tn_study_item_new(tn_growth_parse *parse, tn_study_kind kind, tn_
 tn_study_part *tn_study_part_new(tn_growth_parse *parse, tn_study_part_kind kind, tn_span span, double value,
                                  tn_study_part *before);
 void tn_study_add(tn_growth_parse *parse, tn_study_item *item);
-void tn_study_lost(tn_growth_parse *parse);
 
 typedef struct tn_checked_study {
     const char *name;
