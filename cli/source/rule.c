@@ -115,6 +115,11 @@ static tn_rule_edit_request request_of(tn_job *job)
                                   .before = s->before};
 }
 
+static size_t offset_of(const tn_lines *lines, const tn_text_position *position)
+{
+    return tn_lines_offset(lines, (size_t)position->line, (size_t)position->character);
+}
+
 /* The file's text with the edits, which are in its order. False where out of memory. */
 static bool write_changed(const tn_source *source, const tn_changed_rule *changed, FILE *out)
 {
@@ -125,10 +130,9 @@ static bool write_changed(const tn_source *source, const tn_changed_rule *change
     fwrite(source->text, 1, mark, out);
     for (size_t i = 0; i < changed->edits.count; i++) {
         const tn_text_edit *edit = &changed->edits.items[i];
-        const tn_text_position *start = &edit->range.start, *end = &edit->range.end;
-        fwrite(lines.text + at, 1, tn_lines_offset(&lines, start->line, start->character) - at, out);
+        fwrite(lines.text + at, 1, offset_of(&lines, &edit->range.start) - at, out);
         fputs(edit->newText, out);
-        at = tn_lines_offset(&lines, end->line, end->character);
+        at = offset_of(&lines, &edit->range.end);
     }
     fwrite(lines.text + at, 1, lines.size - at, out);
     tn_lines_clear(&lines);
