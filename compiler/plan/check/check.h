@@ -84,7 +84,7 @@ typedef struct tn_checked_schema {
     uint32_t forbid_count;
     size_t forbid_room;
     tn_choice_diagram *choices; /* sets of its trays, where some were made; tn_check_program frees it */
-    tn_choice_set legal; /* once `legal_known` */
+    tn_choice_set legal;        /* once `legal_known` */
     bool legal_known;
     tn_checked_number *numbers;
     uint32_t number_count;
@@ -192,6 +192,7 @@ typedef struct tn_checked_rule {
     bool settable;              /* what it means depends on a param */
     tn_checked_param *param;    /* of a `let` whose value may be given; else NULL */
     bool used, seen;            /* by a library or measure, also by way of others; seen: what it names is marked too */
+    bool generates;             /* a `generate` names it, also by way of others */
     bool hidden;                /* made of a call, or of a rule of an older schema: the file does not name it */
     bool listed;                /* of a hidden measure: it has a record all the same */
     bool about_plan;            /* has a comparison that speaks of the whole plan */

@@ -587,10 +587,39 @@ bool tn_check_wanted(const tn_check *check, tn_code warning)
     return !check->quiet;
 }
 
+/* Marks the rule, and what it names: as deep as rules name each other; a rule is entered once. */
+static void mark_generates(tn_checked_rule *rule)
+{
+    if (rule->generates)
+        return;
+    rule->generates = true;
+    for (size_t i = 0; i < rule->use_count; i++)
+        mark_generates(rule->uses[i]);
+}
+
+static void mark_generated(const tn_ast_expr *expr)
+{
+    if (expr->rule)
+        mark_generates(expr->rule);
+    for (TN_EACH(const tn_ast_expr, part, expr->parts))
+        mark_generated(part);
+}
+
+/* A rule that generates is met by whole plans. That each plan has a stretch somewhere that it fits is then no warning's
+ * matter. */
+static void find_generating(const tn_checked *result)
+{
+    for (size_t i = 0; i < result->library_count; i++)
+        for (size_t k = 0; k < result->libraries[i]->clause_count; k++)
+            if (result->libraries[i]->clauses[k]->kind == TN_CLAUSE_GENERATE)
+                mark_generated(result->libraries[i]->clauses[k]->expr);
+}
+
 void tn_check_allowances(tn_check *check)
 {
     tn_checked *result = check->result;
-    size_t count = 0;
+    size_t count = result->rule_count;
+    find_generating(result);
     for (size_t i = 0; i < result->rule_count; i++)
         count += result->rules[i]->ast->allow.count;
     for (size_t i = 0; i < result->library_count; i++)
@@ -605,6 +634,10 @@ void tn_check_allowances(tn_check *check)
         for (TN_EACH(const tn_ast_word, word, result->rules[i]->ast->allow))
             allowances[result->program->allowance_count++] =
                 (tn_allowance){result->rules[i]->ast->top.node.span, (uint32_t)word->value};
+    for (size_t i = 0; i < result->rule_count; i++)
+        if (result->rules[i]->generates)
+            allowances[result->program->allowance_count++] =
+                (tn_allowance){result->rules[i]->ast->top.node.span, W_ALWAYS_MATCHES};
     for (size_t i = 0; i < result->library_count; i++)
         for (TN_EACH(const tn_ast_word, word, result->libraries[i]->allow))
             allowances[result->program->allowance_count++] =

@@ -403,7 +403,8 @@ static void report_clause(tn_check *check, const tn_checked_library *library, co
         tn_suggest(check->diagnostics, d, "%s", near);
     else
         tn_help(check->diagnostics, d,
-                "name a rule that it prunes, `trays`, `total`, or `require@` and `prune@` with a line's number");
+                "name a rule of its clauses, `trays`, `total`, or `require@`, `prune@` or `generate@` with a line's "
+                "number");
 }
 
 /* The names after `by`; NULL where one is wrong. */

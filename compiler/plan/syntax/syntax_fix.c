@@ -533,7 +533,8 @@ static const char *likely_fix(const tn_parse *parse, const char *found, const tn
     if (tn_expects(e, "`from`") && tn_expects(e, "`{`") && strcmp(found, "`in`") == 0)
         return "a library of houses is `library NAME from PLANS in FORM { ... }`";
     if (tn_expects(e, "`from`") && parse->schema_head)
-        return "a schema is made from another by `schema NAME from OLDER { ... }`";
+        return "a schema is written `schema NAME { ... }`; one that is made from another, `schema NAME from OLDER { "
+               "... }`";
     if (e->count == 1 && tn_expects(e, "a name") && comes_after_heading(parse))
         return "a name of yours follows this word: `rule NAME = ...`, `library NAME { ... }`, `test NAME { ... }`";
     if (e->count == 1 && tn_expects(e, "a text in quotes") && comes_after(parse, "use"))
