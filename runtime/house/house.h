@@ -9,6 +9,7 @@
 
 #include "runtime/base/int128.h"
 #include "runtime/base/length.h"
+#include "runtime/house/floor/rectangle.h"
 #include "runtime/house/form/form.h"
 #include "runtime/module/code.h"
 #include "runtime/plan/text/text.h"
@@ -17,10 +18,6 @@
 #define TN_HOUSE_TRAYS_DEFAULT 4096u /* the longest plan that is read, where nobody says another limit */
 #define TN_NO_FUNCTION UINT32_MAX
 #define TN_FACE_KINDS_MAX (TN_FACE_KIND_COUNT + TN_OPENINGS_MAX)
-
-typedef struct tn_rectangle {
-    int64_t x0, x1, y0, y1;
-} tn_rectangle;
 
 typedef struct tn_box {
     int64_t x0, x1, y0, y1, z0, z1;

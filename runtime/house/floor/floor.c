@@ -1,0 +1,402 @@
+/* Finds the parts of a cell's free floor, and which passages, landings and keeps touch which. */
+#include "runtime/house/floor/floor.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define NO_PART UINT32_MAX
+
+/* The edges in one direction, ascending, each once. Place 2 i of the cut plane is edge i, place 2 i + 1 what lies
+ * between it and the next. */
+typedef struct tn_floor_edges {
+    int64_t *at;
+    size_t count, room;
+} tn_floor_edges;
+
+/* [places of x][places of y]. */
+typedef struct tn_cut_plane {
+    const tn_floor *floor;
+    tn_floor_edges x, y;
+    size_t wide, deep;
+    bool *free;
+    uint32_t *part; /* NO_PART where nothing is free */
+    uint32_t parts;
+} tn_cut_plane;
+
+/* Places of the plane, both ends included. */
+typedef struct tn_floor_places {
+    size_t x0, x1, y0, y1;
+} tn_floor_places;
+
+/* ---- what cuts the plane */
+
+/* Its middle's places in a passage: on the side, and from there inwards by half of the way. */
+static tn_rectangle points_of(const tn_floor *floor, const tn_passage *passage)
+{
+    const tn_rectangle *c = &floor->clear;
+    int64_t from = passage->from + floor->way / 2, to = passage->to - floor->way / 2;
+    switch (passage->side) {
+    case TN_HOUSE_BACK:
+        return (tn_rectangle){from, to, c->y0, c->y0};
+    case TN_HOUSE_FRONT:
+        return (tn_rectangle){from, to, c->y1, c->y1};
+    case TN_HOUSE_LEFT:
+        return (tn_rectangle){c->x0, c->x0, from, to};
+    default:
+        return (tn_rectangle){c->x1, c->x1, from, to};
+    }
+}
+
+static tn_rectangle gate_of(const tn_floor *floor, const tn_passage *passage)
+{
+    tn_rectangle gate = points_of(floor, passage);
+    gate.x0 -= passage->side == TN_HOUSE_RIGHT ? floor->way / 2 : 0;
+    gate.x1 += passage->side == TN_HOUSE_LEFT ? floor->way / 2 : 0;
+    gate.y0 -= passage->side == TN_HOUSE_FRONT ? floor->way / 2 : 0;
+    gate.y1 += passage->side == TN_HOUSE_BACK ? floor->way / 2 : 0;
+    return gate;
+}
+
+static int64_t half_down(int64_t sum)
+{
+    return sum >= 0 || sum % 2 == 0 ? sum / 2 : sum / 2 - 1;
+}
+
+static tn_rectangle middle_of(const tn_rectangle *r)
+{
+    int64_t x = half_down(r->x0 + r->x1), y = half_down(r->y0 + r->y1);
+    return (tn_rectangle){x, x, y, y};
+}
+
+static bool has_room(const tn_floor *floor)
+{
+    const tn_rectangle *c = &floor->clear;
+    return c->x1 - c->x0 >= floor->way && c->y1 - c->y0 >= floor->way;
+}
+
+static void cut(tn_cut_plane *p, tn_rectangle r)
+{
+    p->x.at[p->x.count++] = r.x0;
+    p->x.at[p->x.count++] = r.x1;
+    p->y.at[p->y.count++] = r.y0;
+    p->y.at[p->y.count++] = r.y1;
+}
+
+static int compare_edges(const void *a, const void *b)
+{
+    const int64_t *p = a, *q = b;
+    return (*p > *q) - (*p < *q);
+}
+
+static void order(tn_floor_edges *edges)
+{
+    size_t kept = 0;
+    qsort(edges->at, edges->count, sizeof *edges->at, compare_edges);
+    for (size_t i = 0; i < edges->count; i++)
+        if (kept == 0 || edges->at[kept - 1] != edges->at[i])
+            edges->at[kept++] = edges->at[i];
+    edges->count = kept;
+}
+
+static bool find_edges(tn_cut_plane *p)
+{
+    const tn_floor *f = p->floor;
+    size_t most = 1 + 2 * f->passage_count + f->obstacle_count + f->keep_count + f->landing_count;
+    p->x.at = malloc(2 * most * sizeof *p->x.at);
+    p->y.at = malloc(2 * most * sizeof *p->y.at);
+    if (!p->x.at || !p->y.at)
+        return false;
+    if (has_room(f))
+        cut(p, tn_rectangle_grown(&f->clear, -f->way / 2));
+    for (size_t i = 0; i < f->passage_count; i++) {
+        cut(p, gate_of(f, &f->passages[i]));
+        cut(p, points_of(f, &f->passages[i]));
+    }
+    for (size_t i = 0; i < f->obstacle_count; i++)
+        cut(p, tn_rectangle_grown(&f->obstacles[i], f->way / 2));
+    for (size_t i = 0; i < f->keep_count; i++)
+        cut(p, tn_rectangle_grown(&f->keeps[i], f->way / 2));
+    for (size_t i = 0; i < f->landing_count; i++)
+        cut(p, middle_of(&f->landings[i]));
+    order(&p->x);
+    order(&p->y);
+    p->wide = p->x.count > 0 ? 2 * p->x.count - 1 : 0;
+    p->deep = p->y.count > 0 ? 2 * p->y.count - 1 : 0;
+    return true;
+}
+
+/* The place of an edge that is there. */
+static size_t place_of(const tn_floor_edges *edges, int64_t at)
+{
+    size_t low = 0, high = edges->count - 1;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (edges->at[middle] < at)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return 2 * low;
+}
+
+static tn_floor_places places_of(const tn_cut_plane *p, tn_rectangle r)
+{
+    return (tn_floor_places){place_of(&p->x, r.x0), place_of(&p->x, r.x1), place_of(&p->y, r.y0),
+                             place_of(&p->y, r.y1)};
+}
+
+/* ---- what is free */
+
+static void set_free(tn_cut_plane *p, tn_rectangle closed)
+{
+    tn_floor_places at = places_of(p, closed);
+    for (size_t x = at.x0; x <= at.x1; x++)
+        for (size_t y = at.y0; y <= at.y1; y++)
+            p->free[x * p->deep + y] = true;
+}
+
+/* The inner part alone: one may touch an obstacle. */
+static void set_taken(tn_cut_plane *p, tn_rectangle open)
+{
+    tn_floor_places at = places_of(p, open);
+    for (size_t x = at.x0 + 1; x < at.x1; x++)
+        for (size_t y = at.y0 + 1; y < at.y1; y++)
+            p->free[x * p->deep + y] = false;
+}
+
+static bool find_free(tn_cut_plane *p)
+{
+    const tn_floor *f = p->floor;
+    p->free = calloc(p->wide * p->deep + 1, sizeof *p->free);
+    if (!p->free)
+        return false;
+    if (has_room(f))
+        set_free(p, tn_rectangle_grown(&f->clear, -f->way / 2));
+    for (size_t i = 0; i < f->passage_count; i++)
+        set_free(p, gate_of(f, &f->passages[i]));
+    for (size_t i = 0; i < f->obstacle_count; i++)
+        set_taken(p, tn_rectangle_grown(&f->obstacles[i], f->way / 2));
+    return true;
+}
+
+/* ---- its parts */
+
+/* Takes a free place that has no part yet into the last one; false: it is none. */
+static bool take(tn_cut_plane *p, size_t place, size_t *todo, size_t *count)
+{
+    if (!p->free[place] || p->part[place] != NO_PART)
+        return false;
+    p->part[place] = p->parts;
+    todo[(*count)++] = place;
+    return true;
+}
+
+static void spread(tn_cut_plane *p, size_t *todo, size_t count)
+{
+    while (count > 0) {
+        size_t place = todo[--count], x = place / p->deep, y = place % p->deep;
+        if (x > 0)
+            take(p, place - p->deep, todo, &count);
+        if (x + 1 < p->wide)
+            take(p, place + p->deep, todo, &count);
+        if (y > 0)
+            take(p, place - 1, todo, &count);
+        if (y + 1 < p->deep)
+            take(p, place + 1, todo, &count);
+    }
+}
+
+static bool find_parts(tn_cut_plane *p)
+{
+    size_t places = p->wide * p->deep, *todo = malloc((places + 1) * sizeof *todo);
+    p->part = malloc((places + 1) * sizeof *p->part);
+    if (!todo || !p->part) {
+        free(todo);
+        return false;
+    }
+    memset(p->part, 0xff, places * sizeof *p->part);
+    for (size_t i = 0; i < places; i++) {
+        size_t count = 0;
+        if (!take(p, i, todo, &count))
+            continue;
+        spread(p, todo, count);
+        p->parts++;
+    }
+    free(todo);
+    return true;
+}
+
+/* parts := those that the closed rectangle touches, whose edges are there. */
+static void find_touched(const tn_cut_plane *p, tn_rectangle r, uint64_t *parts)
+{
+    tn_floor_places at = places_of(p, r);
+    for (size_t x = at.x0; x <= at.x1; x++)
+        for (size_t y = at.y0; y <= at.y1; y++) {
+            uint32_t part = p->part[x * p->deep + y];
+            if (part != NO_PART)
+                parts[part / 64] |= UINT64_C(1) << part % 64;
+        }
+}
+
+static void clear_plane(tn_cut_plane *p)
+{
+    free(p->x.at);
+    free(p->y.at);
+    free(p->free);
+    free(p->part);
+}
+
+/* ---- what is asked of it */
+
+static bool is_empty(const uint64_t *set, size_t words)
+{
+    for (size_t w = 0; w < words; w++)
+        if (set[w] != 0)
+            return false;
+    return true;
+}
+
+static void keep_common(uint64_t *set, const uint64_t *other, size_t words)
+{
+    for (size_t w = 0; w < words; w++)
+        set[w] &= other[w];
+}
+
+static bool have_common(const uint64_t *a, const uint64_t *b, size_t words)
+{
+    for (size_t w = 0; w < words; w++)
+        if (a[w] & b[w])
+            return true;
+    return false;
+}
+
+static bool meets_any(const tn_rectangle *r, const tn_rectangle *others, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (tn_rectangles_meet(r, &others[i]))
+            return true;
+    return false;
+}
+
+/* On a landing that is not wholly free nobody stands. */
+static void find_joined(const tn_cut_plane *p, tn_floor_answer *a)
+{
+    const tn_floor *f = p->floor;
+    for (size_t i = 0; i < f->passage_count; i++)
+        find_touched(p, points_of(f, &f->passages[i]), a->joined + i * a->words);
+    for (size_t i = 0; i < f->landing_count; i++)
+        if (tn_rectangle_within(&f->landings[i], &f->clear) &&
+            !meets_any(&f->landings[i], f->obstacles, f->obstacle_count))
+            find_touched(p, middle_of(&f->landings[i]), a->joined + (f->passage_count + i) * a->words);
+}
+
+/* Is a passage or, behind these, a landing one of those that have to be joined? Of an alcove, whose only way in is an
+ * open side, nothing is asked; nor of a cell whose only ways in are sides that a flight of stairs takes. */
+static bool is_asked(const tn_floor *f, size_t i)
+{
+    bool others = false, alone = f->passage_count + f->landing_count == 1 && f->keep_count == 0;
+    if (i >= f->passage_count)
+        return true;
+    for (size_t k = 0; k < f->passage_count; k++)
+        others |= f->passages[k].kind != TN_PASSAGE_MET;
+    return (f->passages[i].kind == TN_PASSAGE_DOOR || !alone) && (others || f->landing_count > 0 || f->keep_count > 0);
+}
+
+static void find_fault(tn_floor_answer *a, tn_floor_fault fault, size_t of)
+{
+    if (a->fault != TN_FLOOR_FITS)
+        return;
+    a->fault = fault;
+    a->of = of;
+}
+
+/* common := the parts that all touch which are asked. Returns whether any is asked. */
+static bool find_common(const tn_floor *f, tn_floor_answer *a, uint64_t *common)
+{
+    bool any = false;
+    memset(common, 0xff, a->words * sizeof *common);
+    for (size_t i = 0; i < f->passage_count + f->landing_count; i++) {
+        const uint64_t *own = a->joined + i * a->words;
+        if (!is_asked(f, i))
+            continue;
+        any = true;
+        keep_common(common, own, a->words);
+        if (is_empty(common, a->words))
+            find_fault(a, is_empty(own, a->words) ? TN_FLOOR_SHUT : TN_FLOOR_APART, i);
+    }
+    return any;
+}
+
+bool tn_floor_leaf_has_room(const tn_floor *f, size_t leaf)
+{
+    const tn_rectangle *r = &f->leaves[leaf];
+    for (size_t i = 0; i < f->leaf_count; i++)
+        if (i != leaf && tn_rectangles_meet(r, &f->leaves[i]))
+            return false;
+    return tn_rectangle_within(r, &f->clear) && !meets_any(r, f->obstacles, f->obstacle_count) &&
+           !meets_any(r, f->in_air, f->in_air_count) && !meets_any(r, f->landings, f->landing_count);
+}
+
+/* common, touched: sets. */
+static void judge(const tn_cut_plane *p, tn_floor_answer *a, uint64_t *common, uint64_t *touched)
+{
+    const tn_floor *f = p->floor;
+    find_joined(p, a);
+    bool any = find_common(f, a, common), ways_in = f->passage_count + f->landing_count > 0;
+    for (size_t k = 0; k < f->keep_count; k++) {
+        memset(touched, 0, a->words * sizeof *touched);
+        find_touched(p, tn_rectangle_grown(&f->keeps[k], f->way / 2), touched);
+        a->keeps[k] = any && have_common(common, touched, a->words);
+        if (ways_in && !a->keeps[k])
+            find_fault(a, TN_FLOOR_KEEP, k);
+    }
+    a->ways = a->fault == TN_FLOOR_FITS;
+    for (size_t l = 0; l < f->leaf_count; l++) {
+        a->leaves[l] = tn_floor_leaf_has_room(f, l);
+        if (!a->leaves[l])
+            find_fault(a, TN_FLOOR_LEAF, l);
+    }
+    a->fits = a->fault == TN_FLOOR_FITS;
+}
+
+tn_status tn_floor_ask(const tn_floor *floor, tn_floor_answer *a, tn_error *error)
+{
+    tn_cut_plane plane = {.floor = floor};
+    *a = (tn_floor_answer){0};
+    bool ok = find_edges(&plane) && find_free(&plane) && find_parts(&plane);
+    a->parts = plane.parts;
+    a->words = (size_t)plane.parts / 64 + 1;
+    uint64_t *sets = ok ? calloc(2 * a->words, sizeof *sets) : NULL;
+    a->joined = calloc((floor->passage_count + floor->landing_count) * a->words + 1, sizeof *a->joined);
+    a->keeps = calloc(floor->keep_count + 1, sizeof *a->keeps);
+    a->leaves = calloc(floor->leaf_count + 1, sizeof *a->leaves);
+    ok = sets && a->joined && a->keeps && a->leaves;
+    if (ok)
+        judge(&plane, a, sets, sets + a->words);
+    free(sets);
+    clear_plane(&plane);
+    return ok ? TN_OK : tn_fail_memory(error);
+}
+
+void tn_floor_answer_clear(tn_floor_answer *answer)
+{
+    free(answer->joined);
+    free(answer->keeps);
+    free(answer->leaves);
+    *answer = (tn_floor_answer){0};
+}
+
+/* Whether leaves have room is found sooner than the rest. */
+tn_status tn_floor_fits(const tn_floor *floor, bool *fits, tn_error *error)
+{
+    tn_floor_answer answer;
+    *fits = true;
+    for (size_t l = 0; *fits && l < floor->leaf_count; l++)
+        *fits = tn_floor_leaf_has_room(floor, l);
+    if (!*fits)
+        return TN_OK;
+    tn_status status = tn_floor_ask(floor, &answer, error);
+    *fits = status == TN_OK && answer.fits;
+    tn_floor_answer_clear(&answer);
+    return status;
+}
