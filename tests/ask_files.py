@@ -40,6 +40,9 @@ ASKED = {
         ("stdlib/terrace.plan", {"plan": "#1000", "picture": "svg"}, "#1000 -o a.svg"),
         ("stdlib/terrace.plan", {"plan": "#1000", "rules": ["step"], "picture": "png", "dpi": 60, "full": True}, "#1000 --rule step --dpi 60 --full -o a.png"),
         ("stdlib/cottage.plan", {"house": "#10:3", "picture": "svg"}, "#10:3 -o a.svg"),
+        ("stdlib/cottage.plan", {"house": "#10:3", "picture": "pdf", "full": True}, "#10:3 --full -o a.pdf"),
+        ("stdlib/cottage.plan", {"house": "#10:3", "rules": ["far-bed"], "picture": "png", "dpi": 50}, "#10:3 --rule far-bed --dpi 50 -o a.png"),
+        ("stdlib/cottage.plan", {"plan": "#10:", "library": "cottages", "picture": "svg"}, "#10: --library cottages -o a.svg"),
     ],
     "complete": [
         ("stdlib/terrace.plan", {"pattern": "? | ... | ?", "picture": "png"}, "?_|_..._|_? -o a.png"),

@@ -586,9 +586,7 @@ tn_status tn_ask_explain(tn_session *session, const tn_explain_request *request,
     bool of_houses =
         library && request->rules.count == 0 && tn_house_library_find(session->opened->module, library) != TN_NO_RECORD;
     if (request->house || of_houses || is_for_houses(request))
-        return drawn ? tn_session_refuse(session, "`tartan house FILE HOUSE -o NAME.svg` draws the house",
-                                         "why a house is kept or dropped is not drawn: leave out -o")
-                     : explain_of_houses(session, request, answer);
+        return explain_of_houses(session, request, answer);
     status = explain_plan(session, request, answer);
     return status == TN_OK && drawn ? draw(session, request, answer) : status;
 }

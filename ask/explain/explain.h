@@ -6,6 +6,7 @@
 #include "ask/session/session.h"
 #include "driver/house/judge.h"
 #include "driver/plan/explain.h"
+#include "runtime/house/bare.h"
 
 /* A plan explained, as its text and its picture need it (the answer's `reasons`). It borrows the file and what the
  * session keeps. */
@@ -45,6 +46,31 @@ tn_status tn_explain_bare(tn_house_explaining *e, tn_list *bare, tn_error *error
 
 /* Adds the openings that lower roofs keep out of faces to a list of tn_covered_opening. */
 tn_status tn_explain_covered(tn_house_explaining *e, tn_list *covered, tn_error *error);
+
+/* ---- the same in words, as texts and pictures have it */
+
+void tn_explained_clause_said(const tn_explained_house_clause *clause, tn_buffer *out);
+void tn_explained_rule_said(const tn_explained_house_rule *rule, tn_buffer *out);
+void tn_explained_question_said(const tn_asked_of_house *question, tn_buffer *out);
+void tn_explained_covered_said(const tn_covered_opening *covered, tn_buffer *out);
+
+/* Of a house that is explained, or of a plan without one; and of a tile in such a cell. */
+void tn_explained_bare_said(const tn_bare_cell *cell, bool of_house, tn_buffer *out);
+void tn_explained_tile_said(const tn_failing_tile *tile, tn_buffer *out);
+
+/* What keeps houses off a plan, as a whole. */
+void tn_explained_cells_said(const tn_explained_cells *explained, tn_buffer *out);
+
+/* ---- pictures: into the files of the answer */
+
+/* Of a house, once the answer says why: full: every clause, not only those that drop it. */
+tn_status tn_explain_house_draw(tn_house_explaining *e, const tn_explain_request *request, tn_reply *answer);
+
+/* Of a plan in a section; the cells of `bare` are those of the answer. */
+tn_status tn_explain_cells_draw(tn_session *session, const tn_explain_request *request, const tn_bare_cells *bare,
+                                tn_reply *answer);
+
+/* ---- */
 
 /* Kept houses that differ from this one by as few choices as were found. */
 tn_status tn_explain_nearest(tn_house_explaining *e, tn_explained_house *explained, tn_error *error);

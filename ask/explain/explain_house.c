@@ -4,6 +4,7 @@
 
 #include "ask/explain/explain.h"
 #include "ask/house/numbered.h"
+#include "ask/session/made.h"
 #include "driver/house/change_text.h"
 #include "runtime/house/bare.h"
 #include "runtime/house/rule/witness.h"
@@ -111,6 +112,8 @@ static tn_status explain_on(tn_numbered *n, const tn_explain_request *request, t
             status = explain_cells(&e, n, &plan, answer->value, &error);
         if (status != TN_OK)
             tn_session_fail(n->session, &error);
+        else if (tn_answer_has_picture(&request->drawn))
+            status = tn_explain_cells_draw(n->session, request, &e.bare, answer);
     }
     free(plan.trays);
     tn_bare_clear(&e.bare);
@@ -725,7 +728,9 @@ static tn_status explain(tn_house_explaining *e, const tn_explain_request *reque
     }
     if (status == TN_OK)
         status = library ? explain_library(e, of_library, &error) : explain_rules(e, &request->rules, of_rules, &error);
-    return status == TN_OK ? TN_OK : tn_session_fail(e->session, &error);
+    if (status != TN_OK)
+        return tn_session_fail(e->session, &error);
+    return tn_answer_has_picture(&request->drawn) ? tn_explain_house_draw(e, request, answer) : TN_OK;
 }
 
 static tn_status explain_line(tn_session *session, const tn_explain_request *request, const char *line,

@@ -23,44 +23,38 @@
 static void write_why(const tn_asked_of_house *questions, size_t count, tn_buffer *out)
 {
     for (size_t i = 0; i < count; i++) {
-        const tn_owneds *found = &questions[i].found;
-        tn_buffer_printf(out, "    %s:%s", questions[i].question, found->count == 0 ? " nothing" : "");
-        for (size_t k = 0; k < found->count; k++)
-            tn_buffer_printf(out, "%s %s", k ? ";" : "", found->items[k]);
+        tn_buffer_printf(out, "    ");
+        tn_explained_question_said(&questions[i], out);
         tn_buffer_printf(out, "\n");
     }
 }
 
-static const char *said(const tn_explained_house_clause *clause)
-{
-    if (strcmp(clause->kind, "trays") == 0)
-        return clause->drops ? "no plan of its has so many trays" : "the number of trays is one of its";
-    if (strcmp(clause->kind, "prune") == 0)
-        return clause->drops ? "matches, and is pruned" : "does not match";
-    return clause->drops ? "does not hold, and is required" : "holds, as required";
-}
-
 static void write_clause(const tn_explained_house_clause *clause, tn_buffer *out)
 {
-    bool of_plans = strcmp(clause->of, "plan") == 0;
-    tn_buffer_printf(out, "%s %s: %s%s%s%s\n", clause->drops ? "-" : "+", clause->name, said(clause),
-                     of_plans ? ", by the plan alone" : "", *clause->doc ? "; " : "", clause->doc);
+    tn_buffer_printf(out, "%s ", clause->drops ? "-" : "+");
+    tn_explained_clause_said(clause, out);
+    tn_buffer_printf(out, "\n");
     write_why(clause->why.items, clause->why.count, out);
 }
 
-static void write_bare(const tn_bare_cell *bare, tn_buffer *out)
+static void write_bare(const tn_bare_cell *bare, bool of_house, tn_buffer *out)
 {
-    tn_buffer_printf(out, "- no tile stands in %s, so this is no house of any library\n", bare->cell);
-    for (size_t i = 0; i < bare->tiles.count; i++)
-        tn_buffer_printf(out, "    %s: %s\n", bare->tiles.items[i].tile, bare->tiles.items[i].why);
+    tn_buffer_printf(out, "- ");
+    tn_explained_bare_said(bare, of_house, out);
+    tn_buffer_printf(out, "\n");
+    for (size_t i = 0; i < bare->tiles.count; i++) {
+        tn_buffer_printf(out, "    ");
+        tn_explained_tile_said(&bare->tiles.items[i], out);
+        tn_buffer_printf(out, "\n");
+    }
 }
 
 static void write_covered(const tn_explained_house *explained, tn_buffer *out)
 {
     for (size_t i = 0; i < explained->behind_roofs.count; i++) {
-        const tn_covered_opening *covered = &explained->behind_roofs.items[i];
-        tn_buffer_printf(out, "%s    %s: `%s` does not fit, as %s\n", i ? "" : "behind lower roofs:\n", covered->face,
-                         covered->opening, covered->why);
+        tn_buffer_printf(out, "%s    ", i ? "" : "behind lower roofs:\n");
+        tn_explained_covered_said(&explained->behind_roofs.items[i], out);
+        tn_buffer_printf(out, "\n");
     }
 }
 
@@ -97,7 +91,7 @@ static void explain_house_text(const tn_explained_house *explained, bool full, t
         if (full || explained->clauses.items[i].drops)
             write_clause(&explained->clauses.items[i], out);
     for (size_t i = 0; i < explained->bare.count; i++)
-        write_bare(&explained->bare.items[i], out);
+        write_bare(&explained->bare.items[i], true, out);
     if (full)
         write_covered(explained, out);
     if (explained->has_nearest)
@@ -108,36 +102,24 @@ static void explain_house_rules_text(const tn_explained_house_by_rules *explaine
 {
     for (size_t i = 0; i < explained->rules.count; i++) {
         const tn_explained_house_rule *rule = &explained->rules.items[i];
-        tn_buffer_printf(out, "%s `%s` %s this house\n", rule->matches ? "+" : "-", rule->name,
-                         rule->matches ? "matches" : "does not match");
+        tn_buffer_printf(out, "%s ", rule->matches ? "+" : "-");
+        tn_explained_rule_said(rule, out);
+        tn_buffer_printf(out, "\n");
         write_why(rule->why.items, rule->why.count, out);
-    }
-}
-
-static void write_cell(const tn_bare_cell *cell, tn_buffer *out)
-{
-    tn_buffer_printf(out, "- %s: %s\n", cell->cell,
-                     cell->usable ? "no tile stands there, whatever is in its walls" : "no function may be there");
-    for (size_t i = 0; i < cell->tiles.count; i++) {
-        const tn_failing_tile *tile = &cell->tiles.items[i];
-        tn_buffer_printf(out, "    %s, as %s: %s\n", tile->tile, tile->function, tile->why);
     }
 }
 
 static void explain_cells_text(const tn_explained_cells *explained, tn_buffer *out)
 {
-    if (explained->sectionless)
-        tn_buffer_printf(out, "form `%s` has no house: its `forbid` lines forbid every section\n", explained->form);
-    else if (explained->bare.count > 0)
-        tn_buffer_printf(out, "form `%s` has no house on this plan\n", explained->form);
-    else
+    tn_explained_cells_said(explained, out);
+    tn_buffer_printf(out, "\n");
+    if (!explained->sectionless && explained->bare.count == 0)
         tn_buffer_printf(out,
-                         "each cell of this plan can have a function, and a tile where that wants one\n"
                          "`tartan count` with --library %s --plan PLAN --clauses says how many houses it has, and what "
                          "each clause keeps out\n",
                          explained->library);
     for (size_t i = 0; i < explained->bare.count; i++)
-        write_cell(&explained->bare.items[i], out);
+        write_bare(&explained->bare.items[i], false, out);
 }
 
 typedef struct explain_settings {
@@ -447,7 +429,9 @@ const tn_command tn_command_explain = {
         "'#R' "
         "with --library and a library of houses. Of a PLAN (or '#P:', with nothing behind the colon) and a library of "
         "houses it says which cells keep all houses off the plan: no function may be "
-        "there, or no tile of one stands.\n\n"
+        "there, or no tile of one stands. -o draws the plans of the house instead, and lights up on them what each "
+        "clause "
+        "that drops it finds (all clauses with --full): cells, rooms, walls, how far a walk comes.\n\n"
         "For a design of boxes it says how they were squashed, pair by pair; -o draws each step.",
     .example = "$ tartan explain terrace \"$(tartan unrank terrace 1000)\"",
     .options = options,

@@ -44,6 +44,26 @@ done
 cmp -s "$scratch/through.count" "$scratch/by.count" || fail 'apart says something else with by before through'
 grep -q '^houses  *[1-9]' "$scratch/by.count" || fail 'no houses with by before through'
 golden explained_rule "tartan explain cottage \"$bedrooms\" --rule far-bed --rule dark-living"
+
+# Why a house is dropped is drawn: both bedrooms shine red, and no clause that keeps the house is there unless all are.
+"$TARTAN" explain cottage "$bedrooms" -o "$scratch/why.svg" >"$scratch/said"
+[ -s "$scratch/said" ] && fail 'a picture is written, and a text, too'
+shines() { grep -o 'fill="#c7332b" fill-opacity' "$1" | wc -l; }
+is 'bedrooms that are at fault' "$(shines "$scratch/why.svg")" 2
+for words in '`cottages` drops this house' 'far-bed: matches, and is pruned' 'require@65: does not hold' 'plan, ground'; do
+    grep -qF "$words" "$scratch/why.svg" || fail "the picture does not say: $words"
+done
+grep -q dark-living "$scratch/why.svg" && fail 'a clause that keeps the house is drawn'
+"$TARTAN" explain cottage "$bedrooms" --full -o "$scratch/full.svg"
+grep -q dark-living "$scratch/full.svg" || fail 'a clause that keeps the house is not drawn with --full'
+"$TARTAN" explain cottage "$bedrooms" --rule far-bed -o "$scratch/rule.svg"
+grep -q 'fill="#5ca861" fill-opacity' "$scratch/rule.svg" || fail 'what a rule finds does not shine green'
+(cd "$files" && "$TARTAN" explain bare.plan "8' open ; - ; hall" -o "$scratch/tiles.svg" && "$TARTAN" explain bare.plan '#0:' --library halls -o "$scratch/bare.svg")
+is 'a cell without a tile' "$(shines "$scratch/tiles.svg")" 1
+is 'a cell that keeps houses off its plan' "$(shines "$scratch/bare.svg")" 1
+"$TARTAN" explain cottage '#10:77' -o "$scratch/kept.svg"
+grep -qF '`cottages` keeps this house' "$scratch/kept.svg" || fail 'a kept house is not drawn'
+is 'what is at fault in a kept house' "$(shines "$scratch/kept.svg")" 0
 golden explained_tiles "tartan explain bare.plan \"8' open ; - ; hall\""
 golden explained_plan "tartan explain bare.plan '#0:' --library halls"
 golden explained_plan_json "tartan explain bare.plan '#1:' --library halls --json"

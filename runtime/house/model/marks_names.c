@@ -9,10 +9,14 @@
 
 #define SQUARE_FOOT_NM2 ((double)TN_FOOT_NM * (double)TN_FOOT_NM)
 
-/* Words with blanks between them. */
+/* Words with blanks between them: what the room is for or, as long as that is not known, its zone. */
 static void write_name(const tn_house *house, const tn_cell *cell, char *text, size_t size)
 {
-    tn_utf8_copy(tn_text(house->form->module, tn_form_rule(house->form, cell->function)->name), size, text);
+    const tn_schema *schema = house->form->schema;
+    const char *name = cell->function == TN_NO_FUNCTION
+                           ? tn_text(schema->module, schema->fields[cell->zone].name)
+                           : tn_text(house->form->module, tn_form_rule(house->form, cell->function)->name);
+    tn_utf8_copy(name, size, text);
     for (char *c = text; *c; c++)
         *c = (char)(*c == '-' || *c == '_' ? ' ' : *c);
 }

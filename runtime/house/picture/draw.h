@@ -36,6 +36,38 @@ typedef struct tn_house_gallery {
     size_t note_count;
 } tn_house_gallery;
 
+/* What of a house is lit up on its plans, and how: red, for a part that is at fault; rose, for what belongs to one;
+ * green, for what is as it should be. at: in a storey; a wall is without width or depth. */
+typedef enum tn_lit_tone { TN_LIT_FAULT, TN_LIT_BESIDE, TN_LIT_GOOD } tn_lit_tone;
+
+typedef struct tn_lit {
+    uint32_t storey;
+    tn_rectangle at;
+    tn_lit_tone tone;
+} tn_lit;
+
+/* A reason: what is said of it, and what it lights up. */
+typedef struct tn_lit_reason {
+    const char *heading;
+    bool good; /* it speaks for the house */
+    const char *const *lines;
+    size_t line_count;
+    const tn_lit *lits;
+    size_t lit_count;
+} tn_lit_reason;
+
+typedef struct tn_lit_house {
+    const tn_house *house;
+    const tn_solids *solids;
+    const char *title, *said; /* what is said of the whole */
+    const tn_lit_reason *reasons;
+    size_t reason_count;
+} tn_lit_house;
+
+/* Draws why a house is as it is: below each reason the plans of the storeys in which it lights something up; below all
+ * of them, where none does, the plans of all storeys. One page, as high as needed. Errors as tn_house_draw. */
+tn_status tn_lit_house_draw(const tn_lit_house *what, tn_picture *to, tn_error *error);
+
 /* Draws many houses on one page, in space, small, all to one scale. Errors as tn_house_draw. */
 tn_status tn_house_gallery_draw(const tn_house_gallery *gallery, tn_picture *to, tn_error *error);
 

@@ -32,6 +32,10 @@ void tn_house_palette(const tn_house_form *form, tn_aspect_kind kind, double pal
  * slates in the shade are to be told apart. */
 double tn_house_ambient(const tn_house_form *form, tn_aspect_kind kind);
 
+/* Paints what is lit up in the storey of a plan, over it. */
+void tn_draw_lits(const tn_canvas *canvas, const tn_house_drawn *drawn, double points_per_nm, const tn_lit *lits,
+                  size_t count);
+
 /* Paints a drawing where it stands, points_per_nm its scale. */
 void tn_draw_projection(const tn_canvas *canvas, const tn_house_drawn *drawn, double points_per_nm);
 

@@ -131,12 +131,17 @@ static void paint_mark(const tn_drawing_frame *f, const tn_mark *m)
     tn_paint_dash(f->paint, NULL, 0, 0);
 }
 
+static tn_drawing_frame frame_of(const tn_canvas *canvas, const tn_house_drawn *drawn, double points_per_nm)
+{
+    return (tn_drawing_frame){tn_canvas_paint(canvas), drawn->x - drawn->low[0] * points_per_nm,
+                              drawn->y + drawn->low[1] * points_per_nm, points_per_nm};
+}
+
 void tn_draw_projection(const tn_canvas *canvas, const tn_house_drawn *drawn, double points_per_nm)
 {
     const tn_house_projection *p = &drawn->projection;
     double palette[TN_PALETTE_MAX][3];
-    tn_drawing_frame f = {tn_canvas_paint(canvas), drawn->x - drawn->low[0] * points_per_nm,
-                          drawn->y + drawn->low[1] * points_per_nm, points_per_nm};
+    tn_drawing_frame f = frame_of(canvas, drawn, points_per_nm);
     tn_house_palette(drawn->form, p->aspect.kind, palette);
     tn_view_place place = {
         f.x, f.y, f.scale, 0.35, tn_house_ambient(drawn->form, p->aspect.kind), (const double(*)[3])palette, 0};
@@ -145,4 +150,46 @@ void tn_draw_projection(const tn_canvas *canvas, const tn_house_drawn *drawn, do
         paint_cuts(&f, p);
     for (size_t i = 0; i < p->marks.count; i++)
         paint_mark(&f, &p->marks.items[i]);
+}
+
+/* ---- what is lit up */
+
+#define WALL_LIGHT 4.0 /* points: how broad a wall shines */
+
+static const double lights[][3] = {
+    [TN_LIT_FAULT] = {0.78, 0.20, 0.17}, [TN_LIT_BESIDE] = {0.93, 0.62, 0.58}, [TN_LIT_GOOD] = {0.36, 0.66, 0.38}};
+
+/* A space shines through, with a clear edge inside its own; a wall is a broad line. */
+static void paint_lit(const tn_drawing_frame *f, const tn_lit *lit)
+{
+    const double *c = lights[lit->tone];
+    double x0 = place_u(f, (double)lit->at.x0), x1 = place_u(f, (double)lit->at.x1),
+           y0 = place_v(f, (double)lit->at.y1), y1 = place_v(f, (double)lit->at.y0);
+    if (lit->at.x0 == lit->at.x1 || lit->at.y0 == lit->at.y1) {
+        tn_paint_move_to(f->paint, x0, y0);
+        tn_paint_line_to(f->paint, x1, y1);
+        tn_paint_translucent(f->paint, c[0], c[1], c[2], 0.75);
+        tn_paint_line_width(f->paint, WALL_LIGHT);
+        tn_paint_stroke(f->paint);
+        return;
+    }
+    tn_paint_rectangle(f->paint, x0, y0, x1 - x0, y1 - y0);
+    tn_paint_translucent(f->paint, c[0], c[1], c[2], lit->tone == TN_LIT_BESIDE ? 0.25 : 0.35);
+    tn_paint_fill(f->paint);
+    tn_paint_rectangle(f->paint, x0 + 1, y0 + 1, fmax(x1 - x0 - 2, 0), fmax(y1 - y0 - 2, 0));
+    tn_paint_colour(f->paint, c[0], c[1], c[2]);
+    tn_paint_line_width(f->paint, 1.5);
+    tn_paint_stroke(f->paint);
+}
+
+void tn_draw_lits(const tn_canvas *canvas, const tn_house_drawn *drawn, double points_per_nm, const tn_lit *lits,
+                  size_t count)
+{
+    tn_drawing_frame f = frame_of(canvas, drawn, points_per_nm);
+    uint32_t storey = drawn->projection.aspect.storey;
+    for (int pass = 0; pass < 2; pass++) /* what is at fault comes last */
+        for (size_t i = 0; i < count; i++)
+            if (lits[i].storey == storey && (lits[i].tone == TN_LIT_FAULT) == (pass == 1))
+                paint_lit(&f, &lits[i]);
+    tn_paint_colour(f.paint, 0, 0, 0);
 }

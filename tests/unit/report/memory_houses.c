@@ -92,6 +92,19 @@ static tn_status draw_gallery(void *context, tn_buffer *out, tn_error *error)
     return take(tn_house_gallery_draw(&gallery, &picture, error), &picture, out, error);
 }
 
+static tn_status draw_lit(void *context, tn_buffer *out, tn_error *error)
+{
+    (void)context;
+    static const char *const lines[] = {"cell(bed): 1.body.ground"};
+    static const tn_lit lits[] = {{0, {0, 1000000000, 0, 1000000000}, TN_LIT_BESIDE},
+                                  {0, {0, 0, 0, 1000000000}, TN_LIT_FAULT}};
+    const tn_lit_reason reasons[] = {{"round: matches, and is pruned", false, lines, 1, lits, 2},
+                                     {"square: does not match", true, NULL, 0, NULL, 0}};
+    const tn_lit_house lit = {&reported.house, &reported.solids, "dropped", "a house", reasons, 2};
+    tn_picture picture = {0};
+    return take(tn_lit_house_draw(&lit, &picture, error), &picture, out, error);
+}
+
 static void every_allocation_may_fail(void **state)
 {
     (void)state;
@@ -109,6 +122,7 @@ static void every_allocation_may_fail(void **state)
     same_or_memory(draw_sheet, NULL, 40);
     same_or_memory(draw_space, NULL, 40);
     same_or_memory(draw_gallery, NULL, 40);
+    same_or_memory(draw_lit, NULL, 40);
     mpz_clears(counts[0], counts[1], NULL);
     tn_solids_clear(&reported.solids);
     tn_house_clear(&reported.house);
