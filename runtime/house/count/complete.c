@@ -4,7 +4,7 @@
 
 #include "runtime/base/integers.h"
 #include "runtime/house/count/data.h"
-#include "runtime/plan/measure/complete_data.h"
+#include "runtime/plan/measure/open_plan.h"
 
 #define WORST ((tn_int128)INT64_MAX << 63)
 
@@ -24,7 +24,7 @@ typedef struct tn_joint_lists {
 typedef struct tn_completing {
     const tn_houses *houses;
     tn_houses_kind *kind;
-    tn_completer pattern;
+    tn_open_pattern pattern;
     tn_interner machines; /* {placed, gap, earlier in two words} */
     tn_numbering *joints; /* [high + 1]: node << 32 | machine */
     tn_key_walk walk;
@@ -38,17 +38,17 @@ typedef struct tn_completing {
 
 /* ---- joints */
 
-static uint32_t number_machine(tn_completing *c, tn_machine m)
+static uint32_t number_machine(tn_completing *c, tn_open_machine m)
 {
     const uint32_t key[] = {m.placed, m.gap, (uint32_t)m.earlier, (uint32_t)(m.earlier >> 32)};
     return tn_intern(&c->machines, key, sizeof key / sizeof *key);
 }
 
-static tn_machine machine_at(const tn_completing *c, uint64_t joint)
+static tn_open_machine machine_at(const tn_completing *c, uint64_t joint)
 {
     size_t size;
     const uint32_t *key = tn_interned(&c->machines, (uint32_t)joint, &size);
-    return (tn_machine){key[0], key[1], (uint64_t)key[3] << 32 | key[2]};
+    return (tn_open_machine){key[0], key[1], (uint64_t)key[3] << 32 | key[2]};
 }
 
 static tn_int128 *worst_new(size_t count)
@@ -110,9 +110,9 @@ static tn_status each_way(void *context, const tn_houses_edge *edge, tn_error *e
     uint32_t node = tn_number_find(&c->kind->layers[layer + 1].nodes, (uint64_t)edge->plan << 32 | edge->state);
     tn_status status = TN_OK;
     for (uint32_t i = c->lists.first[edge->from]; status == TN_OK && i != UINT32_MAX; i = c->lists.next[i]) {
-        tn_machine m = machine_at(c, c->joints[layer].keys[i]);
-        tn_machine_way ways[2];
-        size_t count = tn_machine_ways(&c->pattern, m, c->pattern.fits[edge->tray], ways);
+        tn_open_machine m = machine_at(c, c->joints[layer].keys[i]);
+        tn_open_way ways[2];
+        size_t count = tn_open_ways(&c->pattern, m, c->pattern.fits[edge->tray], ways);
         for (size_t w = 0; status == TN_OK && w < count; w++) {
             uint32_t machine = number_machine(c, ways[w].to);
             const tn_joint_step step = {ways[w].places, m.placed, edge};
@@ -250,7 +250,7 @@ static tn_status complete_kind(tn_completing *c, tn_error *error)
     static const tn_walk_algebra before = {
         .zero = zero_joint, .clear = clear_joint, .one = start, .add = count_forwards};
     static const tn_walk_algebra after = {.zero = zero_joint, .clear = clear_joint, .add = count_backwards};
-    uint32_t last = c->houses->high, machine = number_machine(c, tn_machine_start(&c->pattern));
+    uint32_t last = c->houses->high, machine = number_machine(c, tn_open_start(&c->pattern));
     c->walk = (tn_key_walk){.graph = &graph, .graph_context = c, .last = last, .keeps = true};
     c->joints = calloc((size_t)last + 1, sizeof *c->joints);
     c->joint_count = 0;
@@ -316,10 +316,10 @@ static void add_values(const tn_completing *c)
 
 tn_status tn_houses_complete(tn_houses *h, const tn_open_plan *open, tn_completions *out, tn_error *error)
 {
-    tn_completing c = {.houses = h, .out = out, .pattern = {.library = h->plans}};
+    tn_completing c = {.houses = h, .out = out};
     *out = (tn_completions){0};
     mpz_inits(out->plans, c.one, NULL);
-    tn_status status = tn_completer_read(&c.pattern, open, error);
+    tn_status status = tn_open_pattern_read(&c.pattern, tn_library_schema(h->plans), open, error);
     if (status == TN_OK)
         status = make_room(&c, error);
     for (size_t i = 0; status == TN_OK && i < h->kind_count; i++) {
@@ -329,11 +329,11 @@ tn_status tn_houses_complete(tn_houses *h, const tn_open_plan *open, tn_completi
     }
     if (status == TN_OK)
         add_values(&c);
-    tn_completer_clear_pattern(&c.pattern);
     tn_interner_clear(&c.machines);
     tn_integers_free(c.placed, (size_t)c.pattern.items * h->form->schema->tray_count);
     free(c.best_placed);
     free(c.best_values);
+    tn_open_pattern_clear(&c.pattern);
     mpz_clear(c.one);
     return status;
 }

@@ -10,7 +10,6 @@
 #include "runtime/base/array.h"
 #include "runtime/house/frontier/states.h"
 #include "runtime/plan/match/condition.h"
-#include "runtime/plan/match/rules.h"
 #include "runtime/plan/match/tray_relations.h"
 
 #define AREA_STEPS_MAX UINT64_C(1000000) /* of the sum of all areas */

@@ -31,6 +31,18 @@ tn_status tn_library_apply(const tn_library *library, const tn_dfa *clause, tn_d
     return tn_sparse_apply(sparse, clause, operation, what, bounds, error);
 }
 
+tn_status tn_library_name_clause(const tn_library *library, size_t i, tn_error *error)
+{
+    if (!error)
+        return TN_LIMIT;
+    tn_error inner = *error;
+    const char *name = tn_text(library->schema->module, tn_library_clause(library, i)->name);
+    tn_fail(error, inner.status, inner.code, "in the clause `%.80s`: %.360s", name, inner.message);
+    tn_error_help(error, "%s", inner.help);
+    error->code_offset = inner.code_offset;
+    return inner.status;
+}
+
 /* Which clauses of an automaton that passed a limit to leave out: `worst` and the two that multiplied it most. */
 static void blame(const tn_library *library, size_t worst, tn_error *error)
 {

@@ -1,6 +1,7 @@
 /* Walks a library in rank order: an odometer of trays that steps only to where a kept plan still follows. */
 #include <stdlib.h>
 
+#include "runtime/plan/library/library.h"
 #include "runtime/plan/library/library_data.h"
 
 struct tn_cursor {

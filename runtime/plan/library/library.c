@@ -1,27 +1,15 @@
 /* Opens a plan library. */
-#include "runtime/plan/library/library_data.h"
+#include "runtime/plan/library/library.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/plan/library/library_data.h"
 #include "runtime/plan/library/others.h"
 #include "runtime/plan/match/lower.h"
-#include "runtime/plan/match/rules.h"
 
 /* ---- clauses */
-
-tn_status tn_library_name_clause(const tn_library *library, size_t i, tn_error *error)
-{
-    if (!error)
-        return TN_LIMIT;
-    tn_error inner = *error;
-    const char *name = tn_text(library->schema->module, tn_library_clause(library, i)->name);
-    tn_fail(error, inner.status, inner.code, "in the clause `%.80s`: %.360s", name, inner.message);
-    tn_error_help(error, "%s", inner.help);
-    error->code_offset = inner.code_offset;
-    return inner.status;
-}
 
 static tn_status lower_clauses(tn_library *library, const tn_library_options *options, tn_error *error)
 {

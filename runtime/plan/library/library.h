@@ -18,6 +18,7 @@
 #include "runtime/plan/schema/classes.h"
 
 typedef struct tn_library tn_library;
+typedef struct tn_sparse tn_sparse;
 
 typedef struct tn_library_options {
     uint32_t max_states; /* of any intermediate automaton; 0: TN_STATES_DEFAULT for
@@ -38,6 +39,11 @@ typedef struct tn_library_options {
 /* index: of the LIBRARY record. Fails with TN_LIMIT (E0802) naming the clause in the way. */
 tn_status tn_library_new(const tn_schema *schema, uint32_t index, const tn_library_options *options,
                          tn_library **library, tn_error *error);
+
+/* A library that is not written anywhere: the plans of min to max trays that `sparse` accepts. For counting, ranking
+ * and sampling; it has no clauses and no record. Takes over the classes, also where it fails. */
+tn_status tn_library_of(tn_classes *classes, const tn_sparse *sparse, uint32_t min, uint32_t max, uint64_t max_table,
+                        tn_library **library, tn_error *error);
 void tn_library_free(tn_library *library);
 
 /* States of the minimal complete automaton of the kept plans: without the length bounds, or (tn_library_within) with

@@ -1,4 +1,5 @@
-/* What a tn_library is made of, for the files that implement library.h. */
+/* What a tn_library is made of, and the steps of making it: for the files that answer the questions of library.h, and
+ * those that walk over its automaton. */
 #ifndef TARTAN_PLAN_LIBRARY_LIBRARY_DATA_H
 #define TARTAN_PLAN_LIBRARY_LIBRARY_DATA_H
 
@@ -9,13 +10,15 @@
 #include "runtime/automata/numbering.h"
 #include "runtime/automata/sparse.h"
 #include "runtime/base/integers.h"
-#include "runtime/plan/library/library.h"
+#include "runtime/plan/library/memory.h"
 #include "runtime/plan/schema/classes.h"
 
 #define TN_LIBRARY_STATES_DEFAULT 1000000u
 #define TN_LIBRARY_LENGTH_DEFAULT 4096u
 #define TN_LIBRARY_EAGER_DEFAULT 3000000u
 #define TN_LIBRARY_TABLE_DEFAULT (UINT64_C(4) << 30)
+
+typedef struct tn_library tn_library; /* library.h */
 
 /* What one clause does to a library. */
 typedef struct tn_effect {
@@ -144,11 +147,6 @@ tn_status tn_library_everything(const tn_library *library, bool within, tn_spars
  * large as it gets anyway. base NULL: those with the fewest states first. */
 tn_status tn_library_order(const tn_library *library, const tn_sparse *base, size_t *clauses, size_t count,
                            tn_error *error);
-
-/* A library that is not written anywhere: the plans of min to max trays that `sparse` accepts. For counting, ranking
- * and sampling; it has no clauses and no record. Takes over the classes, also where it fails. */
-tn_status tn_library_of(tn_classes *classes, const tn_sparse *sparse, uint32_t min, uint32_t max, uint64_t max_table,
-                        tn_library **library, tn_error *error);
 
 /* A copy of an automaton of the library's classes over others that are as fine or finer: its letters are those. map:
  * the library's tray for each of theirs, or NULL where trays are the same. */

@@ -13,6 +13,7 @@
 #define XXH_INLINE_ALL
 #include "runtime/base/random.h"
 #include "runtime/plan/library/hash_text.h"
+#include "runtime/plan/library/library.h"
 #include "runtime/plan/library/library_data.h"
 #include "runtime/plan/match/same.h"
 #include "runtime/plan/schema/sum.h"

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 
 #include "runtime/automata/half.h"
+#include "runtime/plan/library/library.h"
 #include "runtime/plan/library/library_data.h"
 #include "runtime/plan/match/lower.h"
 

@@ -7,7 +7,6 @@
 #include "runtime/base/array.h"
 #include "runtime/plan/library/near_data.h"
 #include "runtime/plan/match/lower.h"
-#include "runtime/plan/match/rules.h"
 
 #define COMBINE_DEFAULT 4000u   /* edges: about a millisecond of combining */
 #define COMBINE_MOST (1u << 20) /* edges: half a second */

@@ -1,6 +1,7 @@
 /* Plan to rank and back. */
 #include <stdlib.h>
 
+#include "runtime/plan/library/library.h"
 #include "runtime/plan/library/library_data.h"
 #include "runtime/plan/library/rank.h"
 

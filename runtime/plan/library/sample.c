@@ -12,6 +12,7 @@
 #include "runtime/base/hash_table.h"
 #include "runtime/base/integers.h"
 #include "runtime/base/random.h"
+#include "runtime/plan/library/library.h"
 #include "runtime/plan/library/library_data.h"
 #include "runtime/plan/library/sample.h"
 

@@ -4,6 +4,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/base/memory.h"
+#include "runtime/plan/library/library.h"
 #include "runtime/plan/library/library_data.h"
 
 #define PASSED_ENTRIES_MAX (UINT64_C(1) << 22) /* 16 MB of marks at most */

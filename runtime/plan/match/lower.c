@@ -8,7 +8,6 @@
 #include "runtime/automata/marked.h"
 #include "runtime/automata/numbering.h"
 #include "runtime/module/code.h"
-#include "runtime/plan/match/rules.h"
 #include "runtime/plan/match/summing.h"
 #include "runtime/plan/match/tray_relations.h"
 

@@ -10,6 +10,8 @@
 #include "runtime/module/code.h"
 #include "runtime/plan/schema/classes.h"
 
+#define TN_STATES_DEFAULT 20000u /* of any intermediate automaton */
+
 typedef struct tn_lowering tn_lowering;
 
 /* max_states: of any intermediate automaton (0: TN_STATES_DEFAULT). The classes must be those of the functions to be

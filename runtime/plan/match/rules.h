@@ -12,8 +12,6 @@
 
 typedef enum tn_matching_engine { TN_ENGINE_AUTO, TN_ENGINE_VM, TN_ENGINE_DFA } tn_matching_engine;
 
-#define TN_STATES_DEFAULT 20000u
-
 typedef struct tn_rules_options {
     tn_matching_engine engine;
     uint32_t max_states; /* of any intermediate automaton; 0: TN_STATES_DEFAULT */

@@ -1,31 +1,80 @@
-/* Open plans: counts forwards and backwards over the library's automaton joined with a machine that places the written
- * trays (complete_machine.c). The plans in which a tray is placed are those before it times those after it. */
-#include "runtime/plan/measure/complete_data.h"
+/* Counts forwards and backwards over the library's automaton joined with the machine that places the written trays. The
+ * plans in which a tray is placed are those before it times those after it. */
+#include "runtime/plan/measure/complete.h"
 
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/automata/numbering.h"
+#include "runtime/automata/walk.h"
 #include "runtime/base/array.h"
+#include "runtime/plan/library/library_data.h"
 
 #define WORST INT64_MAX
 #define NO_ITEM UINT32_MAX
 
-typedef tn_completer completer;
+typedef struct completer {
+    const tn_library *library;
+    tn_weighed *weighed; /* whose states take the place of the library's; or NULL */
+    int64_t sign;        /* that makes less better */
+    tn_open_pattern pattern;
+    uint32_t *letter_of; /* [trays] */
+    uint32_t letters;
+    tn_tray *first;       /* [letters] */
+    uint64_t *size;       /* [letters] */
+    tn_interner states;   /* {library's state, placed, gap, earlier in two words} */
+    tn_layers walk;       /* by trays before; forwards: plans until there, backwards: plans from there */
+    mpz_t *placed;        /* [items][letters]: plans in which such a tray is placed there */
+    int64_t *best_placed; /* the same of the measure; WORST if there is none */
+} completer;
+
+/* ---- letters: trays that lead to the same and fit the same */
+
+/* Trays that differ here lead to different states, or weigh differently. */
+static uint32_t letter_apart(const completer *c, tn_tray t)
+{
+    return c->weighed ? tn_weighed_letter(c->weighed, t) : c->library->tray_column[t];
+}
+
+static tn_status make_letters(completer *c, tn_error *error)
+{
+    uint32_t trays = c->library->schema->tray_count;
+    tn_numbering fits = {0}, pairs = {0};
+    c->letter_of = calloc((size_t)trays + 1, sizeof *c->letter_of);
+    bool ok = c->letter_of != NULL;
+    for (tn_tray t = 0; ok && t < trays; t++) {
+        uint32_t fit = tn_number(&fits, c->pattern.fits[t]);
+        c->letter_of[t] = fit == UINT32_MAX ? fit : tn_number(&pairs, (uint64_t)letter_apart(c, t) << 32 | fit);
+        ok = c->letter_of[t] != UINT32_MAX;
+    }
+    c->letters = pairs.count;
+    tn_numbering_clear(&fits);
+    tn_numbering_clear(&pairs);
+    c->first = ok ? calloc((size_t)c->letters + 1, sizeof *c->first) : NULL;
+    c->size = ok ? calloc((size_t)c->letters + 1, sizeof *c->size) : NULL;
+    if (!c->first || !c->size)
+        return tn_fail_memory(error);
+    for (tn_tray t = trays; t-- > 0;) {
+        c->first[c->letter_of[t]] = t;
+        c->size[c->letter_of[t]]++;
+    }
+    return TN_OK;
+}
 
 /* ---- the graph */
 
-static uint32_t intern(completer *c, uint32_t state, tn_machine m)
+static uint32_t intern(completer *c, uint32_t state, tn_open_machine m)
 {
     uint32_t key[] = {state, m.placed, m.gap, (uint32_t)m.earlier, (uint32_t)(m.earlier >> 32)};
     return tn_intern(&c->states, key, sizeof key / sizeof *key);
 }
 
-static tn_machine machine_of(const completer *c, uint32_t joint, uint32_t *state)
+static tn_open_machine machine_of(const completer *c, uint32_t joint, uint32_t *state)
 {
     size_t size;
     const uint32_t *key = tn_interned(&c->states, joint, &size);
     *state = key[0];
-    return (tn_machine){key[1], key[2], (uint64_t)key[4] << 32 | key[3]};
+    return (tn_open_machine){key[1], key[2], (uint64_t)key[4] << 32 | key[3]};
 }
 
 static bool is_alive(const completer *c, uint32_t left, uint32_t state)
@@ -45,8 +94,8 @@ static bool leads_on(const completer *c, uint32_t n, uint32_t state)
 static bool accepts(const completer *c, uint32_t n, uint32_t joint)
 {
     uint32_t state;
-    tn_machine m = machine_of(c, joint, &state);
-    return n >= c->library->min && m.placed == c->items && is_alive(c, 0, state);
+    tn_open_machine m = machine_of(c, joint, &state);
+    return n >= c->library->min && m.placed == c->pattern.items && is_alive(c, 0, state);
 }
 
 /* By a tray of the letter. */
@@ -76,13 +125,14 @@ static tn_status edges(void *context, uint32_t layer, uint32_t joint, tn_walk_se
 {
     completer *c = context;
     uint32_t state, to;
-    tn_machine m = machine_of(c, joint, &state);
+    tn_open_machine m = machine_of(c, joint, &state);
     tn_status status = TN_OK;
     for (uint32_t l = 0; status == TN_OK && l < c->letters; l++) {
-        tn_machine_way ways[2];
+        tn_open_way ways[2];
         step s = {.letter = l};
         status = follow(c, layer, state, l, &to, &s.gain, error);
-        size_t count = status == TN_OK && to != UINT32_MAX ? tn_machine_ways(c, m, c->fits[c->first[l]], ways) : 0;
+        size_t count =
+            status == TN_OK && to != UINT32_MAX ? tn_open_ways(&c->pattern, m, c->pattern.fits[c->first[l]], ways) : 0;
         for (size_t w = 0; status == TN_OK && w < count; w++) {
             uint32_t next = intern(c, to, ways[w].to);
             s.item = ways[w].places ? m.placed : NO_ITEM;
@@ -186,7 +236,7 @@ static const plans *plans_after(const completer *c, uint32_t layer, uint32_t pla
 
 static tn_status walk(completer *c, tn_error *error)
 {
-    if (intern(c, 0, tn_machine_start(c)) == UINT32_MAX)
+    if (intern(c, 0, tn_open_start(&c->pattern)) == UINT32_MAX)
         return tn_fail_memory(error);
     tn_status status = tn_walk_begin(&c->walk, c->library->max, true, error);
     if (status == TN_OK)
@@ -202,7 +252,7 @@ static void add_values(const completer *c, tn_completions *out)
 {
     const tn_schema *schema = c->library->schema;
     for (tn_tray t = 0; t < schema->tray_count; t++)
-        for (uint32_t i = 0; i < c->items; i++)
+        for (uint32_t i = 0; i < c->pattern.items; i++)
             for (uint32_t f = 0; f < schema->field_count; f++) {
                 size_t at = (size_t)i * out->values + schema->value_start[f] + tn_tray_value(schema, t, f),
                        placed = (size_t)i * c->letters + c->letter_of[t];
@@ -254,9 +304,12 @@ static void clear(completer *c)
 {
     tn_walk_clear(&c->walk, &before_algebra, &after_algebra);
     free(c->best_placed);
-    tn_integers_free(c->placed, (size_t)c->items * c->letters);
+    tn_integers_free(c->placed, (size_t)c->pattern.items * c->letters);
     tn_interner_clear(&c->states);
-    tn_completer_clear_pattern(c);
+    free(c->letter_of);
+    free(c->first);
+    free(c->size);
+    tn_open_pattern_clear(&c->pattern);
 }
 
 static int64_t *worst_new(const completer *c, size_t count)
@@ -269,14 +322,14 @@ static int64_t *worst_new(const completer *c, size_t count)
 
 static tn_status make_room(completer *c, tn_completions *out, tn_error *error)
 {
-    size_t values = (size_t)c->items * c->library->schema->value_count;
-    c->best_placed = worst_new(c, tn_size_of(c->items, c->letters));
-    c->placed = tn_integers_new(tn_size_of(c->items, c->letters));
+    size_t values = (size_t)c->pattern.items * c->library->schema->value_count;
+    c->best_placed = worst_new(c, tn_size_of(c->pattern.items, c->letters));
+    c->placed = tn_integers_new(tn_size_of(c->pattern.items, c->letters));
     out->counts = tn_integers_new(values);
     out->best = worst_new(c, values);
     if (!c->placed || !out->counts || (c->weighed && (!c->best_placed || !out->best)))
         return tn_fail_memory(error);
-    out->trays = c->items;
+    out->trays = c->pattern.items;
     out->values = c->library->schema->value_count;
     return TN_OK;
 }
@@ -300,7 +353,9 @@ tn_status tn_complete(tn_completions *out, const tn_library *library, const tn_o
     mpz_init(out->plans);
     tn_status status = c.weighed ? check_measure(c.weighed, error) : TN_OK;
     if (status == TN_OK)
-        status = tn_completer_read(&c, open, error);
+        status = tn_open_pattern_read(&c.pattern, library->schema, open, error);
+    if (status == TN_OK)
+        status = make_letters(&c, error);
     if (status == TN_OK)
         status = make_room(&c, out, error);
     if (status == TN_OK && library->min <= library->max)

@@ -1,15 +1,8 @@
-/* Open plans: how many plans of a library complete a pattern, and which values its written trays then have.
- *
- * A pattern is a row of trays, each a rule function that looks at that tray alone, and gaps of any number of trays.
- * Where a plan fits in several ways the leftmost counts: the first written tray as early as can be, then the second,
- * and so on.
- */
+/* How many plans of a library complete an open plan, and which values its written trays then have. */
 #ifndef TARTAN_PLAN_MEASURE_COMPLETE_H
 #define TARTAN_PLAN_MEASURE_COMPLETE_H
 
-#include "runtime/plan/measure/weighed.h"
-
-#define TN_PATTERN_MAX 60u /* written trays */
+#include "runtime/plan/measure/open_plan.h"
 
 #define TN_NO_BEST INT64_MIN /* no plan with the choice has a value */
 
@@ -23,21 +16,6 @@ typedef struct tn_completions {
     tn_tray *first;  /* a plan that completes it, [first_length]; NULL if there is none, or it was not asked for */
     uint32_t first_length;
 } tn_completions;
-
-/* A place of an open plan by its trays instead of by a rule. */
-typedef struct tn_open_tray {
-    const bool *fits; /* [trays of the schema]; NULL: every tray */
-    bool gap;
-} tn_open_tray;
-
-typedef struct tn_open_plan {
-    const uint32_t *functions; /* of M, or TN_NO_RECORD for a gap; NULL: `trays` says it */
-    const tn_open_tray *trays;
-    size_t count;
-    tn_weighed *weighed; /* by its first measure, of the same library, choices are weighed; or NULL */
-    bool most;           /* more of it is better, else less */
-    bool first;          /* find a plan that completes it, too */
-} tn_open_plan;
 
 /* Clear in any case. */
 tn_status tn_complete(tn_completions *completions, const tn_library *library, const tn_open_plan *open,

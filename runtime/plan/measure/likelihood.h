@@ -26,4 +26,12 @@ void tn_likelihood_total(const tn_likelihood *likelihood, uint32_t length, mpq_t
 tn_status tn_likelihood_sample(const tn_likelihood *likelihood, uint64_t seed, uint32_t length, size_t count,
                                mpz_t *ranks, size_t *found, tn_error *error);
 
+/* The line of all masses: how long it is, and how many places on it a weight of one has. Both are initialised. */
+void tn_likely_line(const tn_likelihood *likelihood, mpz_t length, mpz_t scale);
+
+/* The plan at a place on the line of all masses, and the stretch that it has there: `begin` and `size` are initialised,
+ * `trays` has room for the longest plan. TN_MEMORY. */
+tn_status tn_likely_plan(const tn_likelihood *likelihood, const mpz_t place, tn_tray *trays, uint32_t *length,
+                         mpz_t begin, mpz_t size, tn_error *error);
+
 #endif

@@ -1,5 +1,6 @@
 /* How likely plans with weights are drawn: on the line of masses each plan has as many places as its weights say, which
  * the interpreter multiplies; and what is drawn one after another, without those before. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -10,7 +11,7 @@
 #include "driver/open/open.h"
 #include "runtime/base/integers.h"
 #include "runtime/plan/match/vm.h"
-#include "runtime/plan/measure/likelihood_data.h"
+#include "runtime/plan/measure/likelihood.h"
 #include "tests/support/test_rule.h"
 
 #define HEAD "schema stall { use = cafe | hall | shop  width = 3m | 6m }\nrule cafes using stall = tray(cafe)\n"
@@ -122,21 +123,21 @@ static void check_totals(const weighted *made, mpq_t *weights, size_t count)
 /* Every place of the line means the plan in whose stretch it lies, and each plan's stretch is as large as it weighs. */
 static void check_line(const weighted *made, mpq_t *weights, size_t count)
 {
-    mpz_t place, begin, size, rank, end;
+    mpz_t place, begin, size, rank, end, all, scale;
     mpq_t weight;
     tn_tray trays[16];
     tn_error error;
     size_t met = 0;
-    mpz_inits(place, begin, size, rank, end, NULL);
+    mpz_inits(place, begin, size, rank, end, all, scale, NULL);
     mpq_init(weight);
-    mpz_srcptr all = made->likelihood->lengths[tn_library_max(made->library) + 1];
+    tn_likely_line(made->likelihood, all, scale);
     while (mpz_cmp(place, all) < 0) {
         uint32_t length;
         test_ok(tn_likely_plan(made->likelihood, place, trays, &length, begin, size, &error), &error);
         assert_true(mpz_cmp(begin, place) == 0);
         assert_true(tn_library_rank(made->library, trays, length, rank));
         mpq_set_num(weight, size);
-        mpq_set_den(weight, made->likelihood->scale);
+        mpq_set_den(weight, scale);
         mpq_canonicalize(weight);
         assert_true(mpq_equal(weight, weights[mpz_get_ui(rank)]));
         mpz_add(end, begin, size);
@@ -155,7 +156,7 @@ static void check_line(const weighted *made, mpq_t *weights, size_t count)
     }
     assert_int_equal(met, count);
     mpq_clear(weight);
-    mpz_clears(place, begin, size, rank, end, NULL);
+    mpz_clears(place, begin, size, rank, end, all, scale, NULL);
 }
 
 static void check_sample(const weighted *made, uint32_t length, size_t count)
