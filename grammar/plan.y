@@ -77,7 +77,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token SECTION "`section`" VOID "`void`" NO "`no`" FUNCTION "`function`" AT "`at`" CELL "`cell`"
 %token OPENING "`opening`" WIDE "`wide`" HIGH "`high`" SILL "`sill`" CLEAR "`clear`" PASSAGE "`passage`"
 %token FLIGHT "`flight`" RISE "`rise`" GOING "`going`" TURN "`turn`"
-%token GLAZED "`glazed`" LEAFLESS "`leafless`" MATERIAL "`material`" PRICE "`price`" PER "`per`"
+%token GLAZED "`glazed`" LEAFLESS "`leafless`" NEAR "`near`" SLIDING "`sliding`" MATERIAL "`material`" PRICE "`price`" PER "`per`"
 %token FACE "`face`" BESIDE "`beside`" ALONG "`along`" ACROSS "`across`" UNDER "`under`" OUTSIDE "`outside`"
 %token TILE "`tile`" FOR "`for`" AGAINST "`against`" DEEP "`deep`" ITEM "`item`"
 %token LEFT "`left`" RIGHT "`right`" BACK "`back`" FRONT "`front`" UP "`up`" COLON "`:`"
@@ -107,7 +107,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <box_side> side_word
 %type <node> form_clause shape argument opening_part tile_part reach section_alternative section_item
 %type <list> form_clauses shapes arguments opening_parts tile_parts kinds or_names reaches section_items section_alternatives
-%type <word> size outside_side number turn section
+%type <word> size outside_side side number turn section
 %type <expr> material_where
 %type <expr> cells cell_ors cell_and cell_ands cell_not sections section_ors section_and section_ands section_not
 %type <expr> expression implied qualified disjunction ors and ands not compared comparable nearness additive term signed primary pattern_tray head_number
@@ -824,7 +824,11 @@ relation
 
 outside_side
     : %empty                                    { $$ = NULL; }
-    | LEFT                                      { $$ = tn_ast_word_new(parse, TN_WORD_NAME, @$, "left", TN_HOUSE_LEFT); }
+    | side
+    ;
+
+side
+    : LEFT                                      { $$ = tn_ast_word_new(parse, TN_WORD_NAME, @$, "left", TN_HOUSE_LEFT); }
     | RIGHT                                     { $$ = tn_ast_word_new(parse, TN_WORD_NAME, @$, "right", TN_HOUSE_RIGHT); }
     | BACK                                      { $$ = tn_ast_word_new(parse, TN_WORD_NAME, @$, "back", TN_HOUSE_BACK); }
     | FRONT                                     { $$ = tn_ast_word_new(parse, TN_WORD_NAME, @$, "front", TN_HOUSE_FRONT); }
@@ -869,11 +873,13 @@ opening_parts
     ;
 
 opening_part
-    : SILL size                                 { $$ = tn_ast_opening_part_new(parse, @$, TN_OPENING_SILL, $2); }
-    | CLEAR size                                { $$ = tn_ast_opening_part_new(parse, @$, TN_OPENING_CLEAR, $2); }
-    | PASSAGE                                   { $$ = tn_ast_opening_part_new(parse, @$, TN_OPENING_PASSAGE, NULL); }
-    | GLAZED                                    { $$ = tn_ast_opening_part_new(parse, @$, TN_OPENING_GLAZED, NULL); }
-    | LEAFLESS                                  { $$ = tn_ast_opening_part_new(parse, @$, TN_OPENING_LEAFLESS, NULL); }
+    : SILL size                                 { $$ = tn_ast_opening_part_new(parse, @$, (tn_ast_opening_part){.part = TN_OPENING_SILL, .length = $2}); }
+    | CLEAR size                                { $$ = tn_ast_opening_part_new(parse, @$, (tn_ast_opening_part){.part = TN_OPENING_CLEAR, .length = $2}); }
+    | NEAR side size                            { $$ = tn_ast_opening_part_new(parse, @$, (tn_ast_opening_part){.part = TN_OPENING_NEAR, .side = $2, .length = $3}); }
+    | PASSAGE                                   { $$ = tn_ast_opening_part_new(parse, @$, (tn_ast_opening_part){.part = TN_OPENING_PASSAGE}); }
+    | GLAZED                                    { $$ = tn_ast_opening_part_new(parse, @$, (tn_ast_opening_part){.part = TN_OPENING_GLAZED}); }
+    | LEAFLESS                                  { $$ = tn_ast_opening_part_new(parse, @$, (tn_ast_opening_part){.part = TN_OPENING_LEAFLESS}); }
+    | SLIDING                                   { $$ = tn_ast_opening_part_new(parse, @$, (tn_ast_opening_part){.part = TN_OPENING_SLIDING}); }
     ;
 
 tile_parts

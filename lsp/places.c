@@ -713,8 +713,14 @@ static void write_needs(const place_words *w, const tn_opening_record *opening)
     uint64_t storeys = 0;
     for (uint32_t i = 0; i < s->form.record->storey_count; i++)
         storeys |= (uint64_t)(opening->sill + opening->high <= tn_form_clear(&s->form, i)) << i;
+    int64_t in_x = tn_opening_needs(&s->form, opening, true), in_y = tn_opening_needs(&s->form, opening, false);
     fputs("\n- needs a face at least ", w->out);
-    words_length(w, opening->wide + s->form.record->wall);
+    words_length(w, in_x);
+    if (in_y != in_x) {
+        fputs(" (at the left and right ", w->out);
+        words_length(w, in_y);
+        fputs(")", w->out);
+    }
     fputs(" wide and ", w->out);
     words_length(w, opening->sill + opening->high);
     fputs(" high", w->out);

@@ -46,6 +46,7 @@ class Form:
         self.rise, self.going, self.turn = chance.choice((8, 9)), chance.choice((8, 9, 10)), chance.choice(("", " turn half"))
         self.across = chance.choice((["gap", "hatch"], ["open", "hatch"], ["gap", "wall"], ["hatch"]))
         self.front, self.back = chance.choice((["sash"], ["slot"])), chance.choice((["shutter"], ["slot", "wall"]))
+        self.near = chance.choice((0, 4, 40, 90))  # how far hatches between trays are from the front; 0: they are in the middle
         self.text = f'''schema hut {{
   width role length = {" | ".join(f'{w}"' for w in self.widths)}
   zone body role band = room({self.deep}")
@@ -62,7 +63,7 @@ form huts of hut {{
   function bed at cell(body)
   function well at cell(body, {self.widths[0]}")
   function seat at cell(wing)
-{"".join(f'  opening {n} wide {o[0]}" high {o[1]}" sill {o[2]}" {o[3]}{chr(10)}' for n, o in OPENINGS.items())}
+{"".join(f'  opening {n} wide {o[0]}" high {o[1]}" sill {o[2]}" {o[3]}{self.begins(n)}{chr(10)}' for n, o in OPENINGS.items())}
   flight steps wide 30" rise 5"..{self.rise}" going {self.going}"{self.turn}
   face cell(well) under cell(well) = steps | floor
   face cell(seat) beside cell(any) = hatch | wall
@@ -98,11 +99,15 @@ library kept from rows in huts {{ prune dim, level, climbed }}
                 return True
         return False
 
-    def fits(self, kind, storey, long):
+    def begins(self, kind):
+        return f' near front {self.near}"' if kind == "hatch" and self.near else ""
+
+    def fits(self, kind, storey, long, between_trays=False):
         if kind not in OPENINGS:
             return True
         wide, high, sill, _ = OPENINGS[kind]
-        return wide + self.wall <= long and sill + high <= self.high[storey] - self.deck
+        ends = self.near + self.wall / 2 if between_trays and self.begins(kind) else self.wall
+        return wide + ends <= long and sill + high <= self.high[storey] - self.deck
 
 
 # ---- a plan that stands up
@@ -172,7 +177,7 @@ def kinds_of(form, cells, functions, face):
         return ["floor"]
     lines = [(("seat" in (f, g)), ["hatch", "wall"]), (f == g == "bed", ["wall"]), (f == g == "living", ["open"]), (True, form.across)]
     for applies, kinds in lines:
-        fitting = [k for k in kinds if form.fits(k, a.storey, long)] if applies else []
+        fitting = [k for k in kinds if form.fits(k, a.storey, long, a.tray != cells[other].tray)] if applies else []
         if fitting:
             return fitting
     return ["wall"]

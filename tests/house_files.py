@@ -268,7 +268,8 @@ def leaves_of(made, door, opening):
     wide, kind = F(made[door][1][9]), made[door][1][11].strip(".")
     ends = {"SINGLE_SWING_LEFT": [(F(0), wide)], "SINGLE_SWING_RIGHT": [(wide, F(0))],
             "DOUBLE_DOOR_SINGLE_SWING": [(F(0), wide / 2), (wide, wide / 2)]}.get(kind, [])
-    check(f"{kind} is how a door opens", ends)
+    slides = kind in ("SLIDING_TO_LEFT", "SLIDING_TO_RIGHT", "DOUBLE_DOOR_SLIDING")
+    check(f"{kind} is how a door opens", ends or slides)
     hole = box_of(made, opening)
     axis = 0 if y[0] else 1
     check("what fills an opening is as wide and high as it", all(low[k] == hole[0][k] and high[k] == hole[1][k] for k in range(3) if k != axis))

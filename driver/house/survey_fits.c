@@ -18,12 +18,17 @@ static int64_t deep(const tn_survey_meeting *m)
     return m->b ? least(m->a->deep, m->b->deep) : m->a->deep;
 }
 
-/* How long an upright face is. */
+/* Does an upright face run along the row? */
+static bool runs_in_x(const tn_survey_meeting *m)
+{
+    return m->relation == TN_FACE_OUTSIDE ? m->side == TN_HOUSE_BACK || m->side == TN_HOUSE_FRONT
+                                          : m->relation == TN_FACE_ACROSS;
+}
+
+/* How long it is. */
 static int64_t length_of(const tn_survey_meeting *m)
 {
-    bool in_x = m->relation == TN_FACE_OUTSIDE ? m->side == TN_HOUSE_BACK || m->side == TN_HOUSE_FRONT
-                                               : m->relation == TN_FACE_ACROSS;
-    return in_x ? wide(m) : deep(m);
+    return runs_in_x(m) ? wide(m) : deep(m);
 }
 
 /* ---- what is in the way; what comes later in the list is nearer to fitting */
@@ -58,7 +63,7 @@ static misfit misfit_of(const tn_survey *s, const tn_survey_meeting *m, uint32_t
                : tn_flight_size_in(&s->form, m->a->storey, opening).steps == 0 ? UNEVEN
                : !may_climb(s, m, opening)                                     ? CRAMPED
                                                                                : FITS;
-    return opening->wide + s->form.record->wall > length_of(m)                     ? CRAMPED
+    return tn_opening_needs(&s->form, opening, runs_in_x(m)) > length_of(m)        ? CRAMPED
            : opening->sill + opening->high > tn_form_clear(&s->form, m->a->storey) ? LOW
                                                                                    : FITS;
 }
@@ -120,6 +125,18 @@ static void say_flight(const tn_survey *s, tn_diagnostic *d, const tn_survey_mee
             written(s, wide(m) - thick).text);
 }
 
+static void say_cramped(const tn_survey *s, tn_diagnostic *d, const tn_survey_meeting *m, uint32_t kind)
+{
+    const tn_opening_record *opening = tn_form_opening(&s->form, kind);
+    bool near = (runs_in_x(m) ? opening->near_x : opening->near_y) != TN_HOUSE_ANY_SIDE;
+    tn_note(tn_survey_list(s), d, NULL,
+            near ? "`%s`, where it is `near` an end and with half a `wall` at the other, takes %s, and the widest of "
+                   "these faces is %s"
+                 : "`%s` and a `wall` added are %s wide, and the widest of these faces is %s",
+            tn_form_kind_text(&s->form, kind), written(s, tn_opening_needs(&s->form, opening, runs_in_x(m))).text,
+            written(s, length_of(m)).text);
+}
+
 void tn_survey_say_misfit(const tn_survey *s, tn_diagnostic *d, const tn_survey_meeting *m, uint32_t kind)
 {
     const tn_opening_record *opening = tn_form_declared(&s->form, kind);
@@ -129,9 +146,7 @@ void tn_survey_say_misfit(const tn_survey *s, tn_diagnostic *d, const tn_survey_
     if (tn_form_flight(&s->form, kind))
         say_flight(s, d, m, why, kind);
     else if (why == CRAMPED)
-        tn_note(tn_survey_list(s), d, NULL, "`%s` and a `wall` added are %s wide, and the widest of these faces is %s",
-                tn_form_kind_text(&s->form, kind), written(s, opening->wide + s->form.record->wall).text,
-                written(s, length_of(m)).text);
+        say_cramped(s, d, m, kind);
     else
         tn_note(tn_survey_list(s), d, NULL, "`%s` ends %s above the floor, and the highest of these faces is %s",
                 tn_form_kind_text(&s->form, kind), written(s, opening->sill + opening->high).text,

@@ -107,7 +107,8 @@ static void warn_opening(const tn_survey *s, uint32_t number)
     const char *name = tn_text(s->form.module, opening->name);
     bool flight = tn_form_flight(&s->form, TN_FACE_KIND_COUNT + number);
     bool named = tn_survey_names(s, TN_FACE_KIND_COUNT + number);
-    bool wider = opening->wide + s->form.record->wall > s->widest;
+    int64_t in_x = tn_opening_needs(&s->form, opening, true), in_y = tn_opening_needs(&s->form, opening, false);
+    bool wider = (in_x < in_y ? in_x : in_y) > s->widest;
     if ((named && !wider && s->uses[TN_FACE_KIND_COUNT + number].used) ||
         tn_survey_allows(s, W_OPENING_NEVER, TN_SURVEY_SPAN(opening)))
         return;

@@ -224,12 +224,12 @@ bool tn_face_behind(const tn_house *house, const tn_face *face, const tn_opening
                     tn_fraction *top)
 {
     *sill = house->form->level[face->storey] + (opening ? opening->sill : 0);
-    return tn_face_roofed(house, face, opening ? opening->wide : wide_of(face), top) && top->top > *sill * top->bottom;
+    return tn_face_roofed(house, face, opening, top) && top->top > *sill * top->bottom;
 }
 
 bool tn_opening_has_room(const tn_house *house, const tn_face *face, const tn_opening_record *opening)
 {
-    return opening->wide + house->form->record->wall <= wide_of(face) &&
+    return tn_opening_needs(house->form, opening, face->at.y0 == face->at.y1) <= wide_of(face) &&
            opening->sill + opening->high <= tn_form_clear(house->form, face->storey);
 }
 

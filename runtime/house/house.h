@@ -278,6 +278,33 @@ static inline int64_t tn_opening_from(int64_t ends, int64_t wide)
     return twice >= 0 || twice % 2 == 0 ? twice / 2 : twice / 2 - 1;
 }
 
+/* Where an opening begins along its face: in the middle, unless it says how far from an end. */
+static inline int64_t tn_opening_begins(const tn_face *face, const tn_opening_record *opening)
+{
+    bool in_y = face->at.x0 == face->at.x1;
+    int64_t low = in_y ? face->at.y0 : face->at.x0, high = in_y ? face->at.y1 : face->at.x1;
+    int64_t near = in_y ? opening->at_y : opening->at_x;
+    switch ((tn_house_side)(in_y ? opening->near_y : opening->near_x)) {
+    case TN_HOUSE_BACK:
+    case TN_HOUSE_LEFT:
+        return low + near;
+    case TN_HOUSE_FRONT:
+    case TN_HOUSE_RIGHT:
+        return high - near - opening->wide;
+    default:
+        return tn_opening_from(low + high, opening->wide);
+    }
+}
+
+/* How long a face has to be for an opening in a wall that runs in x (or in y): with half a wall at either end, or with
+ * what it is away from one of them. */
+static inline int64_t tn_opening_needs(const tn_house_form *form, const tn_opening_record *opening, bool in_x)
+{
+    bool near = (in_x ? opening->near_x : opening->near_y) != TN_HOUSE_ANY_SIDE;
+    int64_t half = form->record->wall / 2;
+    return (near ? in_x ? opening->at_x : opening->at_y : half) + opening->wide + half;
+}
+
 /* ---- flight.c */
 
 #define TN_FLIGHT_STEPS_MAX 1000u

@@ -76,15 +76,19 @@ static tn_rectangle roof_of(const tn_house *house, uint32_t index)
     return r;
 }
 
-/* The line on the outer side of a face's wall along which an opening stands. */
-static tn_rectangle opening_line(const tn_house *house, const tn_face *face, int64_t wide)
+/* The line on the outer side of a face's wall along which an opening stands, or (NULL) the whole wall. */
+static tn_rectangle opening_line(const tn_house *house, const tn_face *face, const tn_opening_record *opening)
 {
     bool along = face->side == TN_HOUSE_LEFT || face->side == TN_HOUSE_RIGHT;
     int64_t half = house->form->record->wall / 2;
     int64_t out = face->side == TN_HOUSE_LEFT || face->side == TN_HOUSE_BACK ? -half : half;
     int64_t at = along ? face->at.x0 + out : face->at.y0 + out;
-    int64_t from = tn_opening_from(along ? face->at.y0 + face->at.y1 : face->at.x0 + face->at.x1, wide);
-    return along ? (tn_rectangle){at, at, from, from + wide} : (tn_rectangle){from, from + wide, at, at};
+    int64_t from = along ? face->at.y0 : face->at.x0, to = along ? face->at.y1 : face->at.x1;
+    if (opening) {
+        from = tn_opening_begins(face, opening);
+        to = from + opening->wide;
+    }
+    return along ? (tn_rectangle){at, at, from, to} : (tn_rectangle){from, to, at, at};
 }
 
 /* Cuts the line down to where the roof of a cell stands against it; false where it does not. */
@@ -122,7 +126,7 @@ static void raise_along(const tn_house *house, uint32_t index, tn_rectangle line
             raise_to(tn_profile_height(&profile, profile.y[i], base), any, top);
 }
 
-bool tn_face_roofed(const tn_house *house, const tn_face *face, int64_t wide, tn_fraction *top)
+bool tn_face_roofed(const tn_house *house, const tn_face *face, const tn_opening_record *opening, tn_fraction *top)
 {
     uint32_t tray = house->cells[face->first].tray;
     bool any = false;
@@ -132,7 +136,7 @@ bool tn_face_roofed(const tn_house *house, const tn_face *face, int64_t wide, tn
     if (tray == house->length)
         return false;
     for (uint32_t i = house->tray_first[tray]; i < house->tray_first[tray + 1]; i++) {
-        tn_rectangle line = opening_line(house, face, wide);
+        tn_rectangle line = opening_line(house, face, opening);
         if (house->cells[i].storey < face->storey && tn_cell_is_top(house, i) && meets_roof(house, face, i, &line))
             raise_along(house, i, line, &any, top);
     }

@@ -77,9 +77,7 @@ static tn_rectangle wall_part(const tn_wall *wall, int64_t from, int64_t to)
 static tn_status put_opening(tn_solids *solids, const tn_wall *wall, const tn_opening_record *o, int64_t z0, int64_t z1,
                              tn_error *error)
 {
-    const tn_rectangle *at = &wall->face->at;
-    int64_t ends = at->x0 == at->x1 ? at->y0 + at->y1 : at->x0 + at->x1;
-    int64_t from = tn_opening_from(ends, o->wide), to = from + o->wide;
+    int64_t from = tn_opening_begins(wall->face, o), to = from + o->wide;
     tn_status status = TN_OK;
     if (wall->from < from)
         status = put(solids, wall->kind, wall->of, wall_part(wall, wall->from, from), z0, z1, error);

@@ -64,9 +64,7 @@ static tn_status take_clearance(tn_room *room, const tn_face *face, tn_house_sid
     if (!o || o->clear == 0)
         return TN_OK;
     tn_rectangle c = room->clear;
-    bool across = side == TN_HOUSE_BACK || side == TN_HOUSE_FRONT;
-    int64_t middle = across ? face->at.x0 + face->at.x1 : face->at.y0 + face->at.y1;
-    int64_t from = tn_opening_from(middle, o->wide), to = from + o->wide;
+    int64_t from = tn_opening_begins(face, o), to = from + o->wide;
     tn_box box = side == TN_HOUSE_BACK    ? (tn_box){from, to, c.y0, c.y0 + o->clear, 0, 0}
                  : side == TN_HOUSE_FRONT ? (tn_box){from, to, c.y1 - o->clear, c.y1, 0, 0}
                  : side == TN_HOUSE_LEFT  ? (tn_box){c.x0, c.x0 + o->clear, from, to, 0, 0}

@@ -104,6 +104,7 @@ enum { TN_ROOF_OPEN = 1, TN_ROOF_ACROSS = 2 };
 #define TN_PASSAGE 1u
 #define TN_GLAZED 2u
 #define TN_LEAFLESS 4u /* nothing stands in it */
+#define TN_SLIDING 8u  /* its leaf slides along the wall */
 #define TN_TILE_KEEP 1u
 #define TN_TILE_X_FROM_RIGHT 2u
 #define TN_TILE_X_TO_RIGHT 4u

@@ -69,7 +69,7 @@ def swings(subject):
         if not has_cells(subject, rank):
             continue
         folder = built(subject, f"#{rank}", "json", "dxf")
-        hung = openings(subject, "passage") - openings(subject, "leafless")
+        hung = openings(subject, "passage") - openings(subject, "leafless") - openings(subject, "sliding")
         doors = sum(face["kind"] in hung for face in read(folder)["faces"])
         same("arcs of doors on plans", entities(os.path.join(folder, "house.dxf"))["ARC", "DOORS"], doors)
 

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "compiler/plan/check/form.h"
+#include "runtime/base/length.h"
 
 /* ---- openings */
 
@@ -22,8 +23,33 @@ static bool opening_is_new(tn_check *check, const tn_checked_form *form, const t
     return false;
 }
 
+/* `near SIDE LENGTH`: once in walls that run in x, once in those that run in y. Half a wall stands at the end. */
+static void read_near(tn_check *check, const tn_checked_form *form, const tn_ast_opening_part *part,
+                      tn_checked_opening *opening)
+{
+    int64_t length = tn_form_length(check, part->length), least = form->thickness[0] / 2;
+    bool in_x = part->side->value == TN_HOUSE_LEFT || part->side->value == TN_HOUSE_RIGHT;
+    const tn_ast_opening_part **near = in_x ? &opening->near_x : &opening->near_y;
+    if (*near) {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_PART_TWICE, part->node.span,
+                                     "where `%s` begins in a wall at the %s is said twice", opening->ast->name->text,
+                                     in_x ? "back or front" : "left or right");
+        tn_note(check->diagnostics, d, &(*near)->node.span, "the first time is here");
+        tn_help(check->diagnostics, d, "leave one of the two out");
+    } else if (length >= 0 && length < least) {
+        char shown[64];
+        tn_diagnostic *d =
+            tn_report(check->diagnostics, E_BAD_OPENING, part->node.span,
+                      "opening `%s` would begin in the wall at the end of its face", opening->ast->name->text);
+        tn_length_write_style(least, tn_length_style_of(part->length->text), shown, sizeof shown);
+        tn_help(check->diagnostics, d, "half of a `wall` stands there: write `near %s %s`, or more", part->side->text,
+                shown);
+    }
+    *near = part;
+}
+
 /* The sizes of an opening; false where one of them is wrong: then reported. */
-static bool read_opening(tn_check *check, tn_checked_opening *opening)
+static bool read_opening(tn_check *check, const tn_checked_form *form, tn_checked_opening *opening)
 {
     const tn_ast_form_clause *ast = opening->ast;
     opening->wide = tn_form_length(check, ast->length);
@@ -33,9 +59,12 @@ static bool read_opening(tn_check *check, tn_checked_opening *opening)
             opening->sill = tn_form_length(check, part->length);
         else if (part->part == TN_OPENING_CLEAR)
             opening->clear = tn_form_length(check, part->length);
+        else if (part->part == TN_OPENING_NEAR)
+            read_near(check, form, part, opening);
         opening->passage |= part->part == TN_OPENING_PASSAGE;
         opening->glazed |= part->part == TN_OPENING_GLAZED;
         opening->leafless |= part->part == TN_OPENING_LEAFLESS;
+        opening->sliding |= part->part == TN_OPENING_SLIDING;
     }
     if (opening->wide != 0 && opening->high != 0)
         return opening->wide > 0 && opening->high > 0 && opening->sill >= 0 && opening->clear >= 0;
@@ -51,7 +80,7 @@ void tn_check_opening(tn_check *check, tn_checked_form *form, const tn_ast_form_
     if (!opening_is_new(check, form, ast->name) || !tn_check_room(check, form->opening_count, TN_OPENINGS_MAX,
                                                                   "opening", ast->node.span, "leave some of them out"))
         return;
-    bool good = read_opening(check, &opening), fits = false;
+    bool good = read_opening(check, form, &opening), fits = false;
     for (uint32_t i = 0; i < form->storey_count; i++)
         fits |= form->storeys[i].height < 0 || /* no length: that was said */
                 opening.sill + opening.high <= form->storeys[i].height - form->thickness[2];

@@ -102,24 +102,40 @@ static void emit_rules(tn_emit *emit, tn_checked_form *form)
     }
 }
 
+/* Where an opening begins; nothing is said of it: in the middle. */
+static tn_house_side side_of(const tn_ast_opening_part *near)
+{
+    return near ? (tn_house_side)near->side->value : TN_HOUSE_ANY_SIDE;
+}
+
+static int64_t length_of(const tn_ast_opening_part *near)
+{
+    return near ? near->length->value : 0;
+}
+
 static void emit_openings(tn_emit *emit, const tn_checked_form *form)
 {
     for (uint32_t i = 0; i < form->opening_count; i++) {
         const tn_checked_opening *opening = &form->openings[i];
-        tn_builder_add_OPENING(emit->builder, &(tn_opening_record){.name = text(emit, opening->ast->name),
-                                                                   .doc = text(emit, opening->ast->doc),
-                                                                   .wide = opening->wide,
-                                                                   .high = opening->high,
-                                                                   .sill = opening->sill,
-                                                                   .clear = opening->clear,
-                                                                   .rise_least = opening->rise_least,
-                                                                   .rise_most = opening->rise_most,
-                                                                   .going = opening->going,
-                                                                   .turn = opening->turn,
-                                                                   .flags = (opening->passage ? TN_PASSAGE : 0) |
-                                                                            (opening->glazed ? TN_GLAZED : 0) |
-                                                                            (opening->leafless ? TN_LEAFLESS : 0),
-                                                                   PLACE(opening->ast->node.span)});
+        tn_builder_add_OPENING(
+            emit->builder,
+            &(tn_opening_record){.name = text(emit, opening->ast->name),
+                                 .doc = text(emit, opening->ast->doc),
+                                 .wide = opening->wide,
+                                 .high = opening->high,
+                                 .sill = opening->sill,
+                                 .clear = opening->clear,
+                                 .rise_least = opening->rise_least,
+                                 .rise_most = opening->rise_most,
+                                 .going = opening->going,
+                                 .turn = opening->turn,
+                                 .flags = (opening->passage ? TN_PASSAGE : 0) | (opening->glazed ? TN_GLAZED : 0) |
+                                          (opening->leafless ? TN_LEAFLESS : 0) | (opening->sliding ? TN_SLIDING : 0),
+                                 .near_x = side_of(opening->near_x),
+                                 .at_x = length_of(opening->near_x),
+                                 .near_y = side_of(opening->near_y),
+                                 .at_y = length_of(opening->near_y),
+                                 PLACE(opening->ast->node.span)});
     }
 }
 

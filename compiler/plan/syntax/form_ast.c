@@ -38,11 +38,13 @@ void *tn_ast_argument_new(tn_parse *parse, tn_span span, const tn_ast_word *word
     return word ? node : NULL;
 }
 
-void *tn_ast_opening_part_new(tn_parse *parse, tn_span span, tn_opening_part part, const tn_ast_word *length)
+void *tn_ast_opening_part_new(tn_parse *parse, tn_span span, tn_ast_opening_part part)
 {
     MAKE(tn_ast_opening_part);
-    *node = (tn_ast_opening_part){.node.span = span, .part = part, .length = length};
-    return length || part >= TN_OPENING_PASSAGE ? node : NULL;
+    *node = part;
+    node->node = (tn_ast_node){.span = span};
+    return (part.length || part.part >= TN_OPENING_PASSAGE) && (part.side || part.part != TN_OPENING_NEAR) ? node
+                                                                                                           : NULL;
 }
 
 void *tn_ast_reach_new(tn_parse *parse, tn_span span, tn_ast_reach reach)

@@ -39,18 +39,20 @@ typedef struct tn_ast_argument {
     const tn_ast_word *word, *run; /* run: NULL where there is one word */
 } tn_ast_argument;
 
-/* `sill LENGTH`, `clear LENGTH`, `passage`, `glazed` or `leafless` of an opening. */
+/* `sill LENGTH`, `clear LENGTH`, `near SIDE LENGTH`, `passage`, `glazed`, `leafless` or `sliding` of an opening. */
 typedef enum tn_opening_part {
     TN_OPENING_SILL,
     TN_OPENING_CLEAR,
+    TN_OPENING_NEAR,
     TN_OPENING_PASSAGE,
     TN_OPENING_GLAZED,
-    TN_OPENING_LEAFLESS
+    TN_OPENING_LEAFLESS,
+    TN_OPENING_SLIDING
 } tn_opening_part;
 typedef struct tn_ast_opening_part {
     tn_ast_node node;
     tn_opening_part part;
-    const tn_ast_word *length;
+    const tn_ast_word *side, *length; /* side: of `near` */
 } tn_ast_opening_part;
 
 /* One stretch of a tile's box: from a side so far, to a side so far. */
@@ -95,7 +97,7 @@ void *tn_ast_form_new(tn_parse *parse, tn_span span, tn_ast_form head, tn_ast_li
 void *tn_ast_form_clause_new(tn_parse *parse, tn_span span, tn_ast_form_clause clause);
 void *tn_ast_shape_new(tn_parse *parse, tn_span span, const tn_ast_word *word, tn_ast_list arguments);
 void *tn_ast_argument_new(tn_parse *parse, tn_span span, const tn_ast_word *word, const tn_ast_word *run);
-void *tn_ast_opening_part_new(tn_parse *parse, tn_span span, tn_opening_part part, const tn_ast_word *length);
+void *tn_ast_opening_part_new(tn_parse *parse, tn_span span, tn_ast_opening_part part);
 void *tn_ast_reach_new(tn_parse *parse, tn_span span, tn_ast_reach reach);
 void *tn_ast_tile_part_new(tn_parse *parse, tn_span span, tn_ast_tile_part part);
 

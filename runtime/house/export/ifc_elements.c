@@ -111,10 +111,13 @@ static int turns_of(const tn_house *house, const tn_face *face, const tn_swing *
     return up ? 0 : 2;
 }
 
-/* IfcDoorTypeOperationEnum: the hinges are at the left or right for who looks in the direction of the y axis. */
+/* IfcDoorTypeOperationEnum: the hinges, or where a leaf slides to, are at the left or right for who looks in the direction
+ * of the y axis. */
 static const char *operation(const tn_swing *door, int turns)
 {
     bool low = door->leaves[0].hinge < door->leaves[0].shut, left = low == (turns < 2);
+    if (door->sliding)
+        return door->count == 2 ? "DOUBLE_DOOR_SLIDING" : left ? "SLIDING_TO_LEFT" : "SLIDING_TO_RIGHT";
     return door->count == 2 ? "DOUBLE_DOOR_SINGLE_SWING" : left ? "SINGLE_SWING_LEFT" : "SINGLE_SWING_RIGHT";
 }
 

@@ -74,13 +74,15 @@ static bool is_flight(const tn_checker *checker, const tn_form_record *form, uin
            checker->module->OPENING_records[form->opening_first + kind - TN_FACE_KIND_COUNT].turn != TN_TURN_NONE;
 }
 
-/* Steps of a flight rise and go somewhere. */
-static tn_status check_flights(const tn_checker *checker, const tn_form_record *form)
+/* Steps of a flight rise and go somewhere. Sides that an opening is near are ends of the walls that they are about. */
+static tn_status check_openings(const tn_checker *checker, const tn_form_record *form)
 {
     for (uint32_t i = 0; i < form->opening_count; i++) {
-        const tn_opening_record *flight = &checker->module->OPENING_records[form->opening_first + i];
-        if (flight->turn != TN_TURN_NONE && (flight->rise_least < 1 || flight->rise_most < 1 || flight->going < 1))
+        const tn_opening_record *opening = &checker->module->OPENING_records[form->opening_first + i];
+        if (opening->turn != TN_TURN_NONE && (opening->rise_least < 1 || opening->rise_most < 1 || opening->going < 1))
             return tn_refuse(checker, "flight %u has steps without a rise or a going", form->opening_first + i);
+        if (opening->near_x == TN_HOUSE_BACK || opening->near_x == TN_HOUSE_FRONT || opening->near_y > TN_HOUSE_FRONT)
+            return tn_refuse(checker, "opening %u is near no end of its walls", form->opening_first + i);
     }
     return TN_OK;
 }
@@ -261,7 +263,7 @@ static tn_status check_form(const tn_checker *checker, uint32_t index)
     if (status == TN_OK)
         status = check_rules(checker, form);
     if (status == TN_OK)
-        status = check_flights(checker, form);
+        status = check_openings(checker, form);
     for (uint32_t i = 0; status == TN_OK && i < form->face_count; i++)
         status = check_face(checker, form, form->face_first + i);
     for (uint32_t i = 0; status == TN_OK && i < form->tile_count; i++)

@@ -9,7 +9,7 @@ bool tn_house_hole(const tn_house *house, const tn_face *face, tn_box *hole)
     const tn_rectangle *at = &face->at;
     bool in_y = at->x0 == at->x1;
     int64_t half = tn_face_thickness(house, face) / 2, floor = house->form->level[face->storey];
-    int64_t from = tn_opening_from(in_y ? at->y0 + at->y1 : at->x0 + at->x1, o->wide), to = from + o->wide;
+    int64_t from = tn_opening_begins(face, o), to = from + o->wide;
     *hole = in_y ? (tn_box){at->x0 - half, at->x0 + half, from, to, 0, 0}
                  : (tn_box){from, to, at->y0 - half, at->y0 + half, 0, 0};
     hole->z0 = floor + o->sill;

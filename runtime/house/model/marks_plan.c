@@ -61,6 +61,23 @@ static void put_leaf(tn_marks *marks, const tn_door_leaf *leaf)
     tn_marks_arc(marks, TN_MARK_DOOR, h[u], h[v], from[u], from[v]);
 }
 
+/* A leaf that slides, where it is shut. */
+static void put_sliding(tn_marks *marks, const tn_door_leaf *leaf)
+{
+    double h[2] = {leaf->hinge, leaf->face}, s[2] = {leaf->shut, leaf->face};
+    int u = leaf->in_y ? 1 : 0, v = 1 - u;
+    tn_marks_line(marks, TN_MARK_DOOR, h[u], h[v], s[u], s[v]);
+}
+
+static void put_door(tn_marks *marks, const tn_swing *door)
+{
+    for (int k = 0; k < door->count; k++)
+        if (door->sliding)
+            put_sliding(marks, &door->leaves[k]);
+        else
+            put_leaf(marks, &door->leaves[k]);
+}
+
 static void put_void(tn_rectangle r, tn_marks *marks)
 {
     double x0 = (double)r.x0, x1 = (double)r.x1, y0 = (double)r.y0, y1 = (double)r.y1;
@@ -83,8 +100,7 @@ static tn_status put_symbols(const tn_house *house, uint32_t storey, const tn_sw
             if (status == TN_OK && face->storey == storey)
                 status = put_flight(house, face, marks, error);
         } else if (door < doors->count && doors->items[door].of == i) {
-            for (int k = 0; k < doors->items[door].count; k++)
-                put_leaf(marks, &doors->items[door].leaves[k]);
+            put_door(marks, &doors->items[door]);
             door++;
         }
     }

@@ -122,13 +122,17 @@ static bool is_clear(const tn_swing *way, const tn_rectangles *taken)
     return clear;
 }
 
-/* The first that meets nothing; else the first that meets no furniture; else the first. */
+/* One that slides is on the first side. Of others, the first that meets nothing; else the first that meets no furniture; else the first. */
 static tn_swing choose_way(const tn_house *house, const tn_face *face, const tn_box *hole, const tn_taken *taken)
 {
     const tn_cell *first = &house->cells[face->first],
                   *second = face->second == TN_NO_CELL ? NULL : &house->cells[face->second];
     tn_swing ways[4] = {way_of(face, hole, first, false), way_of(face, hole, first, true)};
     int count = 2;
+    if (tn_form_opening(house->form, face->kind)->flags & TN_SLIDING) {
+        ways[0].sliding = true;
+        return ways[0];
+    }
     for (int late = 0; second && !second->open && late < 2; late++)
         ways[count++] = way_of(face, hole, second, late);
     for (int i = 0; i < count; i++)
@@ -157,7 +161,7 @@ tn_status tn_swings_find(const tn_house *house, uint32_t storey, tn_taken *taken
             continue;
         tn_swing way = choose_way(house, face, &hole, taken);
         way.of = i;
-        for (int k = 0; status == TN_OK && k < way.count; k++)
+        for (int k = 0; status == TN_OK && !way.sliding && k < way.count; k++)
             status = take_swing(&way.leaves[k], taken, error);
         if (!tn_array_reserve_from(&swings->items, &swings->room, 16, swings->count, 1, sizeof *swings->items))
             return tn_fail_memory(error);

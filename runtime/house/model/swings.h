@@ -1,5 +1,5 @@
 /* How the doors of a house hang and swing: into the room that comes first, unless only the other is free, and hung
- * where they meet no furniture, no stair and no other door, if that can be. Plans draw them so, building models say so.
+ * where they meet no furniture, no stair and no other door, if that can be; or slide. Plans draw them so, building models say so.
  *
  * Coordinates are nanometres of the house. A tn_taken and a tn_swings own their arrays; free them with their _clear.
  */
@@ -25,9 +25,10 @@ typedef struct tn_door_leaf {
     bool in_y;
 } tn_door_leaf;
 
-/* A door: one leaf or, hung at both ends, two. */
+/* A door: one leaf or, hung at both ends, two. sliding: they slide along the wall, and sweep nothing. */
 typedef struct tn_swing {
     uint32_t of; /* the face that it is in */
+    bool sliding;
     tn_door_leaf leaves[2];
     int count;
 } tn_swing;
