@@ -2,6 +2,8 @@
 #include "runtime/load.h"
 
 #include "runtime/module/engine.h"
+#include "runtime/module/lister.h"
+#include "runtime/module/read.h"
 
 #define ENGINE(NAME, FUZZ) extern const tn_engine tn_engine_##NAME;
 #include "runtime/engines.def"

@@ -13,7 +13,7 @@ FILES_MAX = 40
 # What is still wrong. Each line goes when its reason does; an exception that is not needed any more fails too.
 ARROWS_UP = set()
 CIRCLES = set()
-CIRCLES_OF_FILES = {"compiler/plan/check", "runtime/house/count", "runtime/house/frontier", "runtime/module"}
+CIRCLES_OF_FILES = {"compiler/plan/check", "runtime/house/count", "runtime/house/frontier"}
 
 problems = []
 

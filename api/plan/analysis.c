@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "api/plan/plan.h"
+#include "runtime/module/code.h"
 #include "runtime/plan/analysis/analysis.h"
 #include "runtime/plan/library/diff.h"
 

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "api/plan/plan.h"
+#include "runtime/module/code.h"
 #include "runtime/plan/analysis/explain.h"
 #include "runtime/plan/library/near.h"
 

@@ -14,6 +14,7 @@
 #include "runtime/base/file.h"
 #include "runtime/load.h"
 #include "runtime/mesh/openmesh.h"
+#include "runtime/module/code.h"
 
 /* ---- findings of engines, at their places */
 

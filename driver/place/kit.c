@@ -2,6 +2,7 @@
 #include "driver/place/kit.h"
 
 #include "driver/open/open.h"
+#include "runtime/module/code.h"
 #include "runtime/place/search/search.h"
 
 /* ---- runs a connection grammar and explains where it cannot go on */

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "runtime/module/engine.h"
+#include "runtime/module/verify.h"
 
 /* ==== reads a surface of a module, and evaluates it at rows of places */
 

@@ -10,6 +10,8 @@
 #include "runtime/base/buffer.h"
 #include "runtime/base/utf8.h"
 #include "runtime/module/engine.h"
+#include "runtime/module/lister.h"
+#include "runtime/module/verify.h"
 
 const tn_setting_row tn_setting_rows[TN_SETTING_COUNT] = {
 #define SETTING(ID, NUMBER, NAME, KIND, FIRST, SECOND, LOW, HIGH, CHOICES, USE)                                        \

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "runtime/module/code.h"
+#include "runtime/module/lister.h"
 #include "runtime/module/verify.h"
 
 /* ---- finds non-terminals without a sentence */

@@ -255,3 +255,9 @@ tn_status tn_builder_finish(tn_builder *builder, uint8_t **bytes, size_t *size, 
     *size = total;
     return TN_OK;
 }
+
+void tn_module_rehash(uint8_t *bytes, size_t size)
+{
+    if (size >= TN_HEADER_BYTES)
+        tn_put_u64(bytes + TN_HEADER_HASH, tn_module_hash_bytes(bytes, size));
+}

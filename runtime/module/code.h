@@ -35,18 +35,6 @@ typedef struct tn_slot {
 /* The two operands of each kind. */
 extern const tn_slot tn_operand_slots[TN_OPERANDS_COUNT][2];
 
-/* Bytes that each operand takes: TN_FIRST_SPEC, TN_SECOND_SPEC and so on. */
-#define TN_WIDTH_NOTHING 0
-#define TN_WIDTH_U32 4
-#define TN_WIDTH_I64 8
-#define TN_WIDTH_F64 8
-#define TN_WIDTH_STRING 4
-#define TN_WIDTH_INDEX(SECTION) 4
-enum {
-#define OPERANDS(NAME, FIRST, SECOND) TN_FIRST_##NAME = TN_WIDTH_##FIRST, TN_SECOND_##NAME = TN_WIDTH_##SECOND,
-#include "runtime/module/operands.def"
-};
-
 /* What kind of operands an opcode has. */
 static inline tn_operands tn_code_operands(uint8_t opcode)
 {
@@ -140,5 +128,9 @@ static inline tn_instruction tn_code_read(const uint8_t *code, uint32_t offset)
                             .first = tn_code_operand(bytes + 1, widths.first),
                             .second = tn_code_operand(bytes + 1 + widths.first, widths.second)};
 }
+
+/* The source place of the instruction at `offset` of the code section: its own, or that of the nearest instruction
+ * before it in the same function or production that has one; NULL if there is none. */
+const tn_source_map_record *tn_module_place(const tn_module *module, uint32_t offset);
 
 #endif

@@ -7,10 +7,10 @@
 #ifndef TARTAN_MODULE_ENGINE_H
 #define TARTAN_MODULE_ENGINE_H
 
-#include <stdio.h>
+#include "runtime/module/code.h"
 
-#include "runtime/module/lister.h"
-#include "runtime/module/verify.h"
+typedef struct tn_checker tn_checker; /* verify.h */
+typedef struct tn_lister tn_lister;   /* lister.h */
 
 /* What an engine says of a kind of operands beyond its row. Either may be NULL. */
 typedef struct tn_operand_rules {
@@ -55,10 +55,10 @@ typedef struct tn_engine {
 } tn_engine;
 
 /* All engines that a program has. */
-struct tn_engines {
+typedef struct tn_engines {
     const tn_engine *const *items;
     size_t count;
-};
+} tn_engines;
 
 /* The engine that has a section, or runs a kind of code; NULL if none does. */
 const tn_engine *tn_engine_of_section(const tn_engines *engines, tn_section section);
@@ -69,22 +69,5 @@ const tn_engine *tn_engine_of_terms(const tn_engines *engines, tn_function_kind 
 
 /* What the engines say of each kind of operands; NULL if none says anything. */
 void tn_engines_operands(const tn_engines *engines, const tn_operand_rules *rules[TN_OPERANDS_COUNT]);
-
-/* Lists a module in text: tables, then each function's code beside the source lines it comes from. runtime/load.h does
- * it with all engines. */
-
-/* Writes the listing to `out`; false if writing failed or memory ran out. */
-bool tn_module_list(const tn_module *module, const tn_engines *engines, FILE *out);
-
-/* The same, but only a record and the functions that it needs. */
-bool tn_module_list_record(const tn_module *module, const tn_engines *engines, tn_section section, uint32_t index,
-                           FILE *out);
-
-/* Loading a module with the engines that are given: what runtime/load.h does with all of them. */
-
-/* Loads and verifies a module. `limits` may be NULL (defaults). On success the caller owns *module. A module with
- * sections or code of no engine that is given is refused. TN_INVALID (E0701 to E0703), TN_LIMIT (E0810), TN_MEMORY. */
-tn_status tn_module_read(const void *bytes, size_t size, const tn_engines *engines, const tn_module_limits *limits,
-                         tn_module **module, tn_error *error);
 
 #endif

@@ -2,8 +2,6 @@
 #ifndef TARTAN_MODULE_LAYOUT_H
 #define TARTAN_MODULE_LAYOUT_H
 
-#include "runtime/module/module.h"
-
 /* As PNG's: a byte that is no text, the name, and line ends that a transfer as text would change. */
 #define TN_MAGIC "\x89TNB\r\n\x1a\n"
 
@@ -19,8 +17,5 @@ enum {
     TN_ENTRY_COUNT = 4,  /* u32: of records; not 0 */
     TN_ENTRY_BYTES = 8,
 };
-
-/* XXH3-64 over the file with the eight bytes of the hash taken as zero; size >= TN_HEADER_BYTES. */
-uint64_t tn_module_hash_bytes(const uint8_t *bytes, size_t size);
 
 #endif

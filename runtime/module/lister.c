@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "runtime/base/utf8.h"
-#include "runtime/module/engine.h"
 #include "runtime/module/records.h"
 
 /* ==== lists texts, places, records and code: what the listings of all engines are made of */

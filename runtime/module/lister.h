@@ -5,8 +5,7 @@
 
 #include <stdio.h>
 
-#include "runtime/module/code.h"
-#include "runtime/module/module.h"
+#include "runtime/module/engine.h"
 
 /* The lines of a module's sources, for a listing that shows them beside the code: found when first needed. */
 
@@ -21,22 +20,19 @@ bool tn_source_line(tn_source_lines *lines, uint32_t source, uint32_t offset, si
 /* Where the text of a line that was found begins. */
 const char *tn_source_line_text(const tn_source_lines *lines, uint32_t source, size_t line);
 
-struct tn_operand_rules;
-struct tn_engines;
-
 enum { TN_TEXT_SHOWN = 240 };
 
-typedef struct tn_lister {
+struct tn_lister {
     const tn_module *module;
-    const struct tn_engines *engines;
-    const struct tn_operand_rules *operands[TN_OPERANDS_COUNT];
+    const tn_engines *engines;
+    const tn_operand_rules *operands[TN_OPERANDS_COUNT];
     FILE *out;
     tn_source_lines *lines;
     uint32_t shown_file; /* the source line that was shown last */
     size_t shown_line;
     uint32_t function; /* whose instructions are being listed */
     bool failed;       /* out of memory */
-} tn_lister;
+};
 
 void tn_list_text(tn_lister *lister, const char *text);
 void tn_list_name(tn_lister *lister, tn_string name);
@@ -56,5 +52,15 @@ void tn_list_function(tn_lister *lister, uint32_t function);
 /* The instructions of a stretch of code, beside the source lines that they come from: those of the map, or that of the
  * one place of all. */
 void tn_list_code(tn_lister *lister, uint32_t begin, uint32_t end, const tn_source_map_record *place);
+
+/* ---- listing a module: tables, then each function's code beside the source lines it comes from. runtime/load.h does
+ * it with all engines. */
+
+/* Writes the listing to `out`; false if writing failed or memory ran out. */
+bool tn_module_list(const tn_module *module, const tn_engines *engines, FILE *out);
+
+/* The same, but only a record and the functions that it needs. */
+bool tn_module_list_record(const tn_module *module, const tn_engines *engines, tn_section section, uint32_t index,
+                           FILE *out);
 
 #endif

@@ -94,6 +94,9 @@ tn_module_limits tn_module_limits_default(void);
 /* Does this look like a module (its first bytes), as opposed to a source text? */
 bool tn_module_has_magic(const void *bytes, size_t size);
 
+/* The hash of a file: XXH3-64 over it with the eight bytes of the hash taken as zero; at least a header long. */
+uint64_t tn_module_hash_bytes(const uint8_t *bytes, size_t size);
+
 void tn_module_free(tn_module *module);
 
 /* The text of a string; valid while the module is. */
@@ -101,10 +104,6 @@ static inline const char *tn_text(const tn_module *module, tn_string string)
 {
     return module->strings + string;
 }
-
-/* The source place of the instruction at `offset` of the code section: its own, or that of the nearest instruction
- * before it in the same function or production that has one; NULL if there is none. */
-const tn_source_map_record *tn_module_place(const tn_module *module, uint32_t offset);
 
 /* Does a module hold a grammar that genomes are mapped through? */
 static inline bool tn_module_has_grammar(const tn_module *module)

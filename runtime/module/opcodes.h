@@ -11,6 +11,18 @@ typedef enum tn_operands {
     TN_OPERANDS_COUNT
 } tn_operands;
 
+/* Bytes that each operand takes: TN_FIRST_SPEC, TN_SECOND_SPEC and so on. */
+#define TN_WIDTH_NOTHING 0
+#define TN_WIDTH_U32 4
+#define TN_WIDTH_I64 8
+#define TN_WIDTH_F64 8
+#define TN_WIDTH_STRING 4
+#define TN_WIDTH_INDEX(SECTION) 4
+enum {
+#define OPERANDS(NAME, FIRST, SECOND) TN_FIRST_##NAME = TN_WIDTH_##FIRST, TN_SECOND_##NAME = TN_WIDTH_##SECOND,
+#include "runtime/module/operands.def"
+};
+
 typedef enum tn_code_kind {
 #define CODE_KIND(NAME) TN_CODE_##NAME,
 #include "runtime/module/opcodes.def"

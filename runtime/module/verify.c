@@ -9,7 +9,6 @@
 
 #include "runtime/base/bytes.h"
 #include "runtime/base/utf8.h"
-#include "runtime/module/engine.h"
 #include "runtime/module/records.h"
 
 /* ---- verifies the code */
@@ -181,7 +180,7 @@ static tn_status check_engine_code(tn_checker *checker, tn_section section)
     return engine->verify_code(checker, section);
 }
 
-tn_status tn_verify_code(tn_checker *checker)
+static tn_status verify_code(tn_checker *checker)
 {
     const tn_module *module = checker->module;
     tn_status status = check_functions(checker);
@@ -446,7 +445,7 @@ static tn_status check_section(tn_checker *checker, tn_section section)
     return TN_OK;
 }
 
-tn_status tn_verify_records(tn_checker *checker)
+static tn_status verify_records(tn_checker *checker)
 {
     tn_status status = check_strings(checker);
     if (status == TN_OK)
@@ -534,13 +533,13 @@ tn_status tn_module_verify(const tn_module *module, const tn_engines *engines, c
     checker.sizes = calloc(module->SOURCE_count + 1, sizeof *checker.sizes);
     tn_status status = checker.sizes ? check_owners(&checker) : tn_fail_memory(error);
     if (status == TN_OK)
-        status = tn_verify_records(&checker);
+        status = verify_records(&checker);
     if (status == TN_OK && module->PRODUCER_count > 1)
         status = tn_refuse(&checker, "it has more than one producer");
     if (status == TN_OK)
         status = check_engines(&checker);
     if (status == TN_OK)
-        status = tn_verify_code(&checker);
+        status = verify_code(&checker);
     free(checker.sizes);
     return status;
 }

@@ -17,18 +17,15 @@
 #ifndef TARTAN_MODULE_VERIFY_H
 #define TARTAN_MODULE_VERIFY_H
 
-#include "runtime/module/code.h"
-
-typedef struct tn_engines tn_engines;
-struct tn_operand_rules;
+#include "runtime/module/engine.h"
 
 /* What verifying works with. Engines read it; the functions below write it. */
-typedef struct tn_checker {
+struct tn_checker {
     const tn_module *module;
     const tn_engines *engines;
     const tn_module_limits *limits;
     tn_error *error;
-    const struct tn_operand_rules *operands[TN_OPERANDS_COUNT];
+    const tn_operand_rules *operands[TN_OPERANDS_COUNT];
     uint32_t *sizes; /* bytes of each source's text */
 
     /* Where it is in the code; section is TN_SECTION_STRINGS before that. */
@@ -38,7 +35,7 @@ typedef struct tn_checker {
     uint32_t end;    /* of the record's code */
     uint32_t depth;  /* of the stack before the instruction */
     size_t map;      /* the next map record */
-} tn_checker;
+};
 
 /* Does the module hold to all of the above? TN_INVALID (E0703), TN_LIMIT (E0810), TN_MEMORY. */
 tn_status tn_module_verify(const tn_module *module, const tn_engines *engines, const tn_module_limits *limits,
@@ -62,10 +59,5 @@ tn_status tn_code_next(const tn_checker *checker, tn_code_kind code, tn_instruct
 
 /* Goes past the instruction; what the map says of it is checked. */
 tn_status tn_code_pass(tn_checker *checker, const tn_instruction *instruction);
-
-/* ---- its parts, in this order */
-
-tn_status tn_verify_records(tn_checker *checker);
-tn_status tn_verify_code(tn_checker *checker);
 
 #endif

@@ -8,6 +8,8 @@
 #include "runtime/base/array.h"
 #include "runtime/module/code.h"
 #include "runtime/module/engine.h"
+#include "runtime/module/lister.h"
+#include "runtime/module/verify.h"
 #include "runtime/number/operation.h"
 
 /* ==== runs the code of expressions on a stack of numbers, or of rows of numbers */

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "runtime/base/int128.h"
+#include "runtime/module/code.h"
 
 /* The matrix of a turn, row by row: its columns are where right, down and back point. */
 static void write_turn(uint32_t turn, FILE *out)

@@ -1,5 +1,6 @@
 /* Says what of a module belongs to solids, and what its expressions speak of. */
 #include "runtime/module/engine.h"
+#include "runtime/module/verify.h"
 
 #include <math.h>
 

@@ -2,6 +2,8 @@
 #include "tests/toy/engine.h"
 
 #include "runtime/module/engine.h"
+#include "runtime/module/lister.h"
+#include "runtime/module/verify.h"
 
 static tn_status check_step(const tn_checker *checker, const tn_instruction *instruction)
 {

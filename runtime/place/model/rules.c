@@ -8,8 +8,10 @@
 
 #include "runtime/module/code.h"
 #include "runtime/module/engine.h"
-#include "runtime/place/model/turns.h"
+#include "runtime/module/lister.h"
+#include "runtime/module/verify.h"
 #include "runtime/place/model/terms.h"
+#include "runtime/place/model/turns.h"
 
 /* ==== decodes the productions of a connection grammar into symbols, alternatives and steps */
 

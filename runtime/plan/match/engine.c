@@ -1,6 +1,8 @@
 /* Verifies and lists the rules and libraries of a module, and the code of rules and conditions. */
 #include "runtime/module/engine.h"
 #include "runtime/module/code.h"
+#include "runtime/module/lister.h"
+#include "runtime/module/verify.h"
 #include "runtime/plan/match/condition.h"
 #include "runtime/plan/schema/list.h"
 #include "runtime/plan/schema/sum.h"

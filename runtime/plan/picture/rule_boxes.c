@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
+#include "runtime/module/code.h"
 #include "runtime/plan/match/parts.h"
 
 tn_status tn_rule_box_add(tn_rule_boxes *boxes, uint32_t parent, tn_rule_box box, const char *words, uint32_t *added,

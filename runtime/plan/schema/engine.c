@@ -4,6 +4,8 @@
 #include <string.h>
 
 #include "runtime/module/engine.h"
+#include "runtime/module/lister.h"
+#include "runtime/module/verify.h"
 
 /* ---- verifying */
 

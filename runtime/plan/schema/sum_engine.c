@@ -5,6 +5,8 @@
 
 #include "runtime/module/code.h"
 #include "runtime/module/engine.h"
+#include "runtime/module/lister.h"
+#include "runtime/module/verify.h"
 #include "runtime/number/rational.h"
 #include "runtime/plan/schema/list.h"
 #include "runtime/plan/schema/sum.h"

@@ -19,6 +19,7 @@
 #include "runtime/load.h"
 #include "runtime/mesh/openmesh.h"
 #include "runtime/module/builder.h"
+#include "runtime/module/code.h"
 #include "tests/support/compile_file.h"
 #include "tests/support/test_system.h"
 

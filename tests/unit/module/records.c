@@ -15,7 +15,9 @@
 #include "runtime/module/builder.h"
 #include "runtime/module/engine.h"
 #include "runtime/module/layout.h"
+#include "runtime/module/read.h"
 #include "runtime/module/records.h"
+#include "runtime/module/verify.h"
 
 /* ---- an engine that has all sections, and stops the loader once all fields were found right */
 
