@@ -140,11 +140,17 @@ static tn_status tell_extreme(const teller *t)
     return TN_OK;
 }
 
+/* Of two rules that are compared: is the warning turned off for one of them, or does it depend on params? */
+static bool is_pair_allowed(const teller *t, tn_code code, tn_span span, tn_span other)
+{
+    return is_allowed(t, code, span) || is_allowed(t, code, other);
+}
+
 static tn_status tell_subsumed(const teller *t)
 {
     const tn_plan_analysis_finding *f = t->finding;
     tn_span span = rule_span(t, f->rule), other = rule_span(t, f->other);
-    if (is_allowed(t, W_SUBSUMED, span) || is_settable(t, other))
+    if (is_pair_allowed(t, W_SUBSUMED, span, other))
         return TN_OK;
     const char *name = rule_name(t, f->rule), *wider = rule_name(t, f->other);
     char what[TN_NAME_MAX + 40];
@@ -163,7 +169,7 @@ static tn_status tell_equivalent(const teller *t)
 {
     const tn_plan_analysis_finding *f = t->finding;
     tn_span span = rule_span(t, f->rule), other = rule_span(t, f->other);
-    if (is_allowed(t, W_EQUIVALENT, span) || is_settable(t, other))
+    if (is_pair_allowed(t, W_EQUIVALENT, span, other))
         return TN_OK;
     const char *name = rule_name(t, f->rule), *equal = rule_name(t, f->other);
     tn_diagnostics *list = list_of(t);

@@ -605,8 +605,8 @@ static void mark_generated(const tn_ast_expr *expr)
         mark_generated(part);
 }
 
-/* A rule that generates is met by whole plans. That each plan has a stretch somewhere that it fits is then no warning's
- * matter. */
+/* A rule that generates is met by whole plans. In how many plans there is a stretch somewhere that it fits is then no
+ * warning's matter. */
 static void find_generating(const tn_checked *result)
 {
     for (size_t i = 0; i < result->library_count; i++)
@@ -615,10 +615,13 @@ static void find_generating(const tn_checked *result)
                 mark_generated(result->libraries[i]->clauses[k]->expr);
 }
 
+static const tn_code not_of_generating[] = {W_ALWAYS_MATCHES, W_SUBSUMED, W_EQUIVALENT};
+
 void tn_check_allowances(tn_check *check)
 {
     tn_checked *result = check->result;
-    size_t count = result->rule_count;
+    const size_t own = sizeof not_of_generating / sizeof *not_of_generating;
+    size_t count = result->rule_count * own;
     find_generating(result);
     for (size_t i = 0; i < result->rule_count; i++)
         count += result->rules[i]->ast->allow.count;
@@ -635,9 +638,9 @@ void tn_check_allowances(tn_check *check)
             allowances[result->program->allowance_count++] =
                 (tn_allowance){result->rules[i]->ast->top.node.span, (uint32_t)word->value};
     for (size_t i = 0; i < result->rule_count; i++)
-        if (result->rules[i]->generates)
+        for (size_t k = 0; result->rules[i]->generates && k < own; k++)
             allowances[result->program->allowance_count++] =
-                (tn_allowance){result->rules[i]->ast->top.node.span, W_ALWAYS_MATCHES};
+                (tn_allowance){result->rules[i]->ast->top.node.span, not_of_generating[k]};
     for (size_t i = 0; i < result->library_count; i++)
         for (TN_EACH(const tn_ast_word, word, result->libraries[i]->allow))
             allowances[result->program->allowance_count++] =
