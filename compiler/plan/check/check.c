@@ -1,26 +1,13 @@
 /* Checks .plan files: schemas, rules, libraries and tests, in the order of their uses. */
 #include "compiler/plan/check/check.h"
 
-#include "compiler/plan/check/expand.h"
-#include "compiler/plan/check/form.h"
-
-/* What everything else needs to know of the rules: which schema they are for. */
-static void find_schema(tn_check *check, tn_checked_rule *rule)
-{
-    const tn_ast_word *using = rule->ast->using;
-    bool schema = !using || tn_names_get(&check->schemas, using->text);
-    rule->form = schema ? NULL : tn_check_form_named(check, rule->unit, using->text);
-    rule->schema =
-        rule->form ? rule->form->schema : tn_check_schema_for(check, rule->unit, using, rule->ast->name->node.span);
-}
-
 static void find_schemas(tn_check *check)
 {
     tn_checked *result = check->result;
     for (size_t i = 0; i < result->rule_count; i++)
-        find_schema(check, result->rules[i]);
+        tn_check_find_schema(check, result->rules[i]);
     for (size_t i = 0; i < check->template_count; i++) {
-        find_schema(check, check->templates[i]);
+        tn_check_find_schema(check, check->templates[i]);
         tn_check_parameters(check, check->templates[i]);
     }
 }

@@ -550,8 +550,9 @@ void tn_expand(tn_check *check, tn_ast_expr **expr);
 tn_ast_expr *tn_expand_older(tn_check *check, const tn_ast_expr *written, size_t unit, const tn_checked_schema *older);
 /* The measure for the schema at hand; NULL: reported. */
 tn_checked_rule *tn_expand_older_measure(tn_check *check, tn_checked_rule *measure);
-tn_ast_expr *tn_let_value(tn_check *check, tn_checked_rule *let); /* NULL: reported */
-#define TN_PARAMETERS_MAX 16                                      /* of a rule */
+tn_ast_expr *tn_let_value(tn_check *check, tn_checked_rule *let);       /* NULL: reported */
+#define TN_PARAMETERS_MAX 16                                            /* of a rule */
+void tn_check_parameters(tn_check *check, const tn_checked_rule *rule); /* what each is, told by its uses */
 
 /* ---- check.c */
 /* Can a `let` stand for this: a constant, or values of a field? Reports where not. */
@@ -596,6 +597,8 @@ void tn_check_compared_sum(tn_check *check, const tn_checked_sum *sum); /* the s
 void tn_check_same_form(tn_check *check, const tn_ast_expr *name);
 /* The form called so, where it is in scope; NULL: there is none. */
 struct tn_checked_form *tn_check_form_named(const tn_check *check, size_t unit, const char *name);
+/* What everything else needs to know of a rule: which form or schema it is for. */
+void tn_check_find_schema(tn_check *check, tn_checked_rule *rule);
 /* Numbers the rules and libraries that there are records of: those of plans, and those of houses. */
 void tn_check_number_records(tn_check *check);
 

@@ -54,7 +54,4 @@ tn_ast_expr *tn_place_expression(tn_rule_expansion *expansion, const tn_checked_
 /* expand_key.c: a text that is the same for equal expressions. */
 const char *tn_expression_key(tn_check *check, const tn_checked_schema *schema, const char *name, tn_ast_list parts);
 
-/* expand_parameters.c: what each parameter is, told by its uses. */
-void tn_check_parameters(tn_check *check, const tn_checked_rule *rule);
-
 #endif

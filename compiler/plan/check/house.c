@@ -17,6 +17,15 @@ tn_checked_form *tn_check_form_named(const tn_check *check, size_t unit, const c
     return NULL;
 }
 
+void tn_check_find_schema(tn_check *check, tn_checked_rule *rule)
+{
+    const tn_ast_word *using = rule->ast->using;
+    bool schema = !using || tn_names_get(&check->schemas, using->text);
+    rule->form = schema ? NULL : tn_check_form_named(check, rule->unit, using->text);
+    rule->schema =
+        rule->form ? rule->form->schema : tn_check_schema_for(check, rule->unit, using, rule->ast->name->node.span);
+}
+
 /* The first form of the schema that is in scope, if there is one. */
 static const tn_checked_form *first_form(const tn_check *check)
 {

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "runtime/house/count/data.h"
+#include "runtime/house/count/houses.h"
 
 typedef struct tn_added_finding {
     tn_houses *houses;

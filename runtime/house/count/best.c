@@ -5,6 +5,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/house/count/data.h"
+#include "runtime/house/count/houses.h"
 #include "runtime/plan/measure/pareto.h"
 
 tn_status tn_houses_too_many_values(const tn_houses *h, tn_error *error)
@@ -25,7 +26,7 @@ static tn_status too_long_a_front(tn_error *error)
 /* Drops what is not aimed at. */
 static void keep_best(const tn_houses *h, tn_value_counts *counts)
 {
-    if (h->aim == TN_HOUSES_FRONT)
+    if (h->front)
         tn_value_counts_keep_front(counts);
     else
         tn_value_counts_keep_least(counts, h->wanted);
@@ -91,7 +92,7 @@ static tn_status keep_aimed(void *context, uint32_t layer, uint32_t state, void 
     for (uint32_t i = 0; i < tn_houses_lengths(h); i++) {
         keep_best(h, &values[i]);
         a->pairs += values[i].count;
-        if (h->aim == TN_HOUSES_FRONT && values[i].count > TN_FRONT_MAX)
+        if (h->front && values[i].count > TN_FRONT_MAX)
             return too_long_a_front(error);
     }
     return a->pairs > h->max_states ? tn_houses_too_many_values(h, error) : TN_OK;

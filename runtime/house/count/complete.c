@@ -4,6 +4,7 @@
 
 #include "runtime/base/integers.h"
 #include "runtime/house/count/data.h"
+#include "runtime/house/count/houses.h"
 #include "runtime/plan/measure/open_plan.h"
 
 #define WORST ((tn_int128)INT64_MAX << 63)

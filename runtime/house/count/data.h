@@ -1,13 +1,16 @@
-/* What a tn_houses is made of, for the files that implement houses.h. */
+/* What a tn_houses is made of: the sections and their layers of nodes, and the steps between them. For the files that
+ * answer the questions of houses.h, and those that look for single houses. */
 #ifndef TARTAN_HOUSE_COUNT_DATA_H
 #define TARTAN_HOUSE_COUNT_DATA_H
 
 #include "runtime/automata/walk.h"
-#include "runtime/house/count/houses.h"
 #include "runtime/house/count/section.h"
 #include "runtime/house/frontier/states.h"
 #include "runtime/house/rule/asked.h"
 #include "runtime/house/rule/furnish.h"
+#include "runtime/plan/measure/weighed.h"
+
+typedef struct tn_houses tn_houses; /* houses.h */
 
 /* How many there are of each value, in steps of each measure, by the first measure, then the next: ascending. */
 typedef struct tn_value_count {
@@ -112,7 +115,8 @@ struct tn_houses {
     bool keep_trays;         /* ways are by tray, though steps have stages */
     uint32_t many_slices;    /* along one plan, with fewer, a step as a whole is quicker than one in stages */
     bool whole_steps;        /* these are so few that stages would cost more */
-    tn_houses_aim aim;
+    bool aimed;              /* values are looked for: */
+    bool front;              /* those of the front, else the least */
     uint64_t wanted;         /* houses, of the least values */
     tn_value_counts best;    /* of all houses, as far as they are aimed at */
     tn_furnisher *furnisher; /* or NULL: not asked for */

@@ -8,6 +8,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/house/count/data.h"
+#include "runtime/house/count/houses.h"
 
 typedef struct tn_reached {
     uint32_t state;

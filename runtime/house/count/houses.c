@@ -1,4 +1,6 @@
 /* Counts the houses of a library layer by layer: how many choices lead to each node. */
+#include "runtime/house/count/houses.h"
+
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,7 +8,6 @@
 #include "runtime/base/array.h"
 #include "runtime/base/integers.h"
 #include "runtime/house/count/data.h"
-#include "runtime/house/count/houses.h"
 #include "runtime/house/rule/asked.h"
 
 /* Adds to an error what helps. */
@@ -273,12 +274,10 @@ static tn_status scout_kinds(const tn_houses *h, const tn_frontier_trays *trays,
 
 static tn_status look_at_kind(tn_houses *h, tn_houses_kind *kind, tn_error *error)
 {
-    if (h->measures && h->aim == TN_HOUSES_SPREAD)
+    if (h->measures && !h->aimed && !h->trays_matter)
         return tn_houses_spread_kind(h, kind, error);
     tn_status status = count_kind(h, kind, error);
-    return status == TN_OK && (h->aim == TN_HOUSES_LEAST || h->aim == TN_HOUSES_FRONT)
-               ? tn_houses_aim_kind(h, kind, error)
-               : status;
+    return status == TN_OK && h->aimed ? tn_houses_aim_kind(h, kind, error) : status;
 }
 
 static tn_status count_sections(tn_houses *h, const tn_frontier_trays *trays, tn_error *error)
@@ -339,7 +338,8 @@ tn_status tn_houses_of(const tn_house_form *form, const tn_house_library_record 
                      .measures = what->measures,
                      .many_slices = MANY_SLICES,
                      .trays_matter = what->aim == TN_HOUSES_COMPLETE,
-                     .aim = what->aim,
+                     .aimed = what->aim == TN_HOUSES_LEAST || what->aim == TN_HOUSES_FRONT,
+                     .front = what->aim == TN_HOUSES_FRONT,
                      .wanted = what->wanted,
                      .without = what->without};
     h->high = h->high < h->low ? h->low : h->high;
@@ -354,7 +354,7 @@ tn_status tn_houses_of(const tn_house_form *form, const tn_house_library_record 
         status = tn_houses_plans_find(h, &trays, error);
     if (status == TN_OK)
         status = count_sections(h, &trays, error);
-    if (status == TN_OK && (h->aim == TN_HOUSES_LEAST || h->aim == TN_HOUSES_FRONT))
+    if (status == TN_OK && h->aimed)
         status = tn_houses_aim_all(h, error);
     tn_frontier_trays_clear(&trays);
 #ifdef TARTAN_CHECK_COUNTS

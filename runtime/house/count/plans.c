@@ -7,6 +7,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/house/count/data.h"
+#include "runtime/house/count/houses.h"
 
 bool tn_houses_plan_lives(const tn_houses *h, uint32_t layer, uint32_t plan)
 {

@@ -10,6 +10,7 @@
 #include "runtime/base/array.h"
 #include "runtime/base/integers.h"
 #include "runtime/house/count/data.h"
+#include "runtime/house/count/houses.h"
 
 /* Words of a class: may the row end there; then the way on. From one tray to the next, if a step has stages, there are
  * classes that go on without a slice: a word for each. */

@@ -7,6 +7,7 @@
 #include "runtime/base/array.h"
 #include "runtime/base/integers.h"
 #include "runtime/house/count/data.h"
+#include "runtime/house/count/houses.h"
 
 /* ---- layers */
 

@@ -8,6 +8,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/house/count/data.h"
+#include "runtime/house/count/houses.h"
 
 typedef struct siding {
     const tn_houses *houses; /* the plans that are asked about */

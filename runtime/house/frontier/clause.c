@@ -8,6 +8,7 @@
 
 #include "runtime/automata/explore.h"
 #include "runtime/base/array.h"
+#include "runtime/house/frontier/frontier.h"
 #include "runtime/house/frontier/states.h"
 #include "runtime/plan/match/condition.h"
 #include "runtime/plan/match/tray_relations.h"

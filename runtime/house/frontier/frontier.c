@@ -2,6 +2,8 @@
  * apart.
  *
  * ==== questions: decisions on cells, rooms, meetings, walks */
+#include "runtime/house/frontier/frontier.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -258,7 +260,8 @@ static void place_decisions(tn_frontier *frontier)
         q->walk_parts[w] = parts_of(frontier, q->walks[w]);
 }
 
-tn_status tn_frontier_ask(tn_frontier *frontier, tn_error *error)
+/* TN_LIMIT (E1640) if there are too many, or one that is not known here, with the clause. */
+static tn_status find_questions(tn_frontier *frontier, tn_error *error)
 {
     const tn_module *module = frontier->form->module;
     tn_status status = TN_OK;
@@ -620,7 +623,7 @@ static tn_status begin(tn_frontier *frontier, tn_error *error)
     }
     find_tiled(frontier);
     tn_status status = tn_frontier_clauses_new(frontier, error);
-    return status == TN_OK ? tn_frontier_ask(frontier, error) : status;
+    return status == TN_OK ? find_questions(frontier, error) : status;
 }
 
 tn_status tn_frontier_new(const tn_house_form *form, const tn_house_library_record *library, const uint32_t *shapes,

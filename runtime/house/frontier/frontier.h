@@ -63,7 +63,8 @@
  * interface.c make what a row consists of; rooms.c and walks.c follow what crosses interfaces; clause.c makes automata
  * of clauses, which reading.c reads; costs.c counts tiles and costs; step.c and stage.c go from state to state. The
  * headers are of what is asked (questions.h), of what a row consists of (slices.h), and of states and the whole engine
- * (states.h). runtime/house/count goes through the states of all plans, runtime/house/rank through those of one house.
+ * (states.h); each builds on the one before, and this one stands above all of them. runtime/house/count goes through
+ * the states of all plans, runtime/house/rank through those of one house.
  */
 #ifndef TARTAN_HOUSE_FRONTIER_FRONTIER_H
 #define TARTAN_HOUSE_FRONTIER_FRONTIER_H
@@ -72,8 +73,6 @@
 #include "runtime/house/measure/measure.h"
 
 typedef struct tn_frontier tn_frontier;
-
-#define TN_FRONTIER_NONE UINT32_MAX /* no edge, no slice: the row begins or ends */
 
 /* A library of which a part is left out, for coverage. What the instructions at these code offsets make is empty in the
  * library's clauses from `first` on (counted within it; borrowed). differs: these keep the houses of which the clause

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
+#include "runtime/house/frontier/frontier.h"
 #include "runtime/house/frontier/states.h"
 #include "runtime/house/rule/asked.h"
 

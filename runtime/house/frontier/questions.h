@@ -6,10 +6,17 @@
 #include "runtime/automata/numbering.h"
 #include "runtime/base/array.h"
 #include "runtime/base/int128.h"
-#include "runtime/house/frontier/frontier.h"
+#include "runtime/house/house.h"
+#include "runtime/house/measure/measure.h"
 #include "runtime/plan/match/lower.h"
 #include "runtime/plan/match/uses.h"
 #include "runtime/plan/match/vm.h"
+
+typedef struct tn_frontier tn_frontier;                 /* states.h */
+typedef struct tn_frontier_without tn_frontier_without; /* frontier.h, as is the next */
+typedef struct tn_frontier_trays tn_frontier_trays;
+
+#define TN_FRONTIER_NONE UINT32_MAX /* no edge, no slice: the row begins or ends */
 
 #define TN_FRONTIER_CELLS_MAX 60u     /* of a tray: sets of cells are words */
 #define TN_FRONTIER_MEETINGS_MAX 30u  /* that clauses walk by */
@@ -104,9 +111,6 @@ typedef struct tn_frontier_questions {
     tn_room_open *open_rooms; /* [fails] */
     size_t open_room;
 } tn_frontier_questions;
-
-/* Finds them. TN_LIMIT (E1640) if there are too many, or one that is not known here, with the clause. */
-tn_status tn_frontier_ask(tn_frontier *frontier, tn_error *error);
 
 static inline bool tn_answers(const uint64_t *answers, size_t decision)
 {

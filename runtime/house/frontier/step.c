@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
+#include "runtime/house/frontier/frontier.h"
 #include "runtime/house/frontier/states.h"
 
 /* An interface that is being crossed: what is at its left is known by the state, what is at its right by the slice,

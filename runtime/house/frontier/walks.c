@@ -11,6 +11,7 @@
  * say. */
 #include <string.h>
 
+#include "runtime/house/frontier/frontier.h"
 #include "runtime/house/frontier/states.h"
 
 /* By groups: of their first cell. by_source: of a source that is not walked through, the cells to which it can go. */
