@@ -1,9 +1,9 @@
 /* Decides on cells and sections by running their code, and from that what may be in a cell or a face. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/house/decide_parts.h"
 #include "runtime/house/solids.h"
 #include "runtime/module/code.h"
 
@@ -220,14 +220,17 @@ static int64_t wide_of(const tn_face *face)
     return x > y ? x : y;
 }
 
-bool tn_face_behind(const tn_house *house, const tn_face *face, const tn_opening_record *opening, int64_t *sill,
-                    tn_fraction *top)
+/* Does a lower roof stand above the sill of the opening, somewhere along it? NULL: of an open side, which is as wide as
+ * the face. Heights above the lowest floor; *top is set if there is a lower roof. */
+static bool lower_roof_covers(const tn_house *house, const tn_face *face, const tn_opening_record *opening,
+                              int64_t *sill, tn_fraction *top)
 {
     *sill = house->form->level[face->storey] + (opening ? opening->sill : 0);
     return tn_face_roofed(house, face, opening, top) && top->top > *sill * top->bottom;
 }
 
-bool tn_opening_has_room(const tn_house *house, const tn_face *face, const tn_opening_record *opening)
+/* Is the face as wide and high as the opening needs: with half a wall at either side, and a deck above? */
+static bool has_room(const tn_house *house, const tn_face *face, const tn_opening_record *opening)
 {
     return tn_opening_needs(house->form, opening, face->at.y0 == face->at.y1) <= wide_of(face) &&
            opening->sill + opening->high <= tn_form_clear(house->form, face->storey);
@@ -244,8 +247,7 @@ static bool fits(const tn_house *house, const tn_face *face, uint32_t kind)
         return true;
     tn_fraction top;
     int64_t sill;
-    return (!opening || tn_opening_has_room(house, face, opening)) &&
-           !tn_face_behind(house, face, opening, &sill, &top);
+    return (!opening || has_room(house, face, opening)) && !lower_roof_covers(house, face, opening, &sill, &top);
 }
 
 /* Are all the faces of such a relation and side the line's, whatever their cells are? */
@@ -275,7 +277,8 @@ static bool has_cells(const tn_house *house, const tn_face_line_record *line, co
     return either && tn_house_decide(house, line->first, second) && tn_house_decide(house, line->second, first);
 }
 
-bool tn_face_line_is_about(const tn_house *house, const tn_face_line_record *line, const tn_face *face)
+/* Is a form's line of faces about the face? All functions are given. */
+static bool line_is_about(const tn_house *house, const tn_face_line_record *line, const tn_face *face)
 {
     return is_placed(line, face) && has_cells(house, line, face);
 }
@@ -292,7 +295,7 @@ size_t tn_face_decided(const tn_house *house, const tn_face *face, uint32_t kind
     }
     for (uint32_t i = 0; count == 0 && i < form->record->face_count; i++) {
         const tn_face_line_record *line = &form->module->FACE_LINE_records[form->record->face_first + i];
-        if (!tn_face_line_is_about(house, line, face))
+        if (!line_is_about(house, line, face))
             continue;
         for (uint32_t k = 0; k < line->kind_count && count < TN_FACE_KINDS_MAX; k++) {
             uint32_t kind = form->module->HOUSE_ITEM_records[line->kind_first + k].number;
@@ -319,4 +322,50 @@ int64_t tn_face_thickness(const tn_house *house, const tn_face *face)
         return 0;
     bool thick = face->relation == TN_FACE_OUTSIDE || face->kind == TN_FACE_PARTY;
     return thick ? house->form->record->wall : house->form->record->partition;
+}
+
+/* ---- which openings a lower roof keeps out of a face, and by how much */
+
+static bool is_behind(const tn_house *house, const tn_face *face, uint32_t kind, tn_behind_roof *behind)
+{
+    const tn_opening_record *opening = tn_form_opening(house->form, kind);
+    if (opening ? !has_room(house, face, opening) : kind != TN_FACE_OPEN)
+        return false;
+    behind->kind = kind;
+    return lower_roof_covers(house, face, opening, &behind->sill, &behind->top);
+}
+
+bool tn_face_behind_roof(const tn_house *house, const tn_face *face, uint32_t kind, tn_behind_roof *behind)
+{
+    const tn_house_form *form = house->form;
+    uint32_t kinds[TN_FACE_KINDS_MAX], last;
+    tn_face_decided(house, face, kinds, &last);
+    if (face->relation != TN_FACE_OUTSIDE)
+        return false;
+    for (uint32_t i = 0; i < form->record->face_count && (last == TN_NO_RECORD || i <= last); i++) {
+        const tn_face_line_record *line = &form->module->FACE_LINE_records[form->record->face_first + i];
+        for (uint32_t k = 0; line_is_about(house, line, face) && k < line->kind_count; k++) {
+            uint32_t other = form->module->HOUSE_ITEM_records[line->kind_first + k].number;
+            if ((kind == TN_NO_RECORD || kind == other) && is_behind(house, face, other, behind))
+                return true;
+        }
+    }
+    return false;
+}
+
+tn_length_style tn_house_length_style(const tn_house *house)
+{
+    const tn_schema *schema = house->form->schema;
+    return tn_length_style_of(tn_text(schema->module, schema->values[schema->value_start[house->form->width]].name));
+}
+
+void tn_behind_roof_text(const tn_house *house, const tn_behind_roof *behind, char *text, size_t size)
+{
+    tn_length_style style = tn_house_length_style(house);
+    tn_int128 step = style == TN_STYLE_FEET ? TN_INCH_NM / 64 : 1000000, part = step * behind->top.bottom;
+    char sill[64], top[64];
+    tn_length_write_style(behind->sill, style, sill, sizeof sill);
+    tn_length_write_style((int64_t)((behind->top.top + part - 1) / part * step), style, top, sizeof top);
+    snprintf(text, size, "its %s is %s above the lowest floor, and the roof there reaches %s",
+             behind->kind == TN_FACE_OPEN ? "floor" : "sill", sill, top);
 }
