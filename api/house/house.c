@@ -1,6 +1,8 @@
 /* The C interface to one house: its line, its plan and its numbers. */
 #include "api/house/house.h"
 
+#include "ask/house/typed.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -23,10 +25,23 @@ tartan_status tartan_house_read(tartan_house_library *library, const char *line,
 {
     tn_error found = {0};
     tn_house read = {0};
+    tn_typed_told told;
+    tn_first_mistake first = {0};
     if (!library || !house || (size > 0 && !line))
         return tn_api_missing(error, !library ? "library of houses" : house ? "line" : "room for the house");
+    const tn_numbered *n = &library->numbered;
+    const tn_typed_among among = {.form = &n->form,
+                                  .form_number = n->record->form,
+                                  .library = n->record,
+                                  .plans = n->plans,
+                                  .options = {.max_states = n->max_states},
+                                  .max_length = TN_HOUSE_TRAYS_DEFAULT,
+                                  .kept = true};
     tn_status status =
-        tn_house_read(&library->numbered.form, size > 0 ? line : "", size, TN_HOUSE_TRAYS_DEFAULT, &read, &found);
+        tn_typed_find(&among, size > 0 ? line : "", size, tn_keep_first_mistake, &first, &read, &told, &found);
+    tn_typed_told_clear(&told);
+    if (first.any)
+        found = first.error;
     if (status == TN_OK)
         return give_house(library, &read, house, error);
     tn_house_clear(&read);

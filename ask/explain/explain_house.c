@@ -4,6 +4,7 @@
 
 #include "ask/explain/explain.h"
 #include "ask/house/numbered.h"
+#include "ask/house/typed.h"
 #include "ask/session/made.h"
 #include "driver/house/change_text.h"
 #include "runtime/house/bare.h"
@@ -710,19 +711,30 @@ static tn_status explain_rules(tn_house_explaining *e, const tn_texts *rules, tn
 
 /* ---- the whole */
 
-static tn_status explain(tn_house_explaining *e, const tn_explain_request *request, const char *line, tn_reply *answer)
+static tn_status explain(tn_house_explaining *e, const tn_explain_request *request, uint32_t form, const char *line,
+                         tn_reply *answer)
 {
     tn_error error = {0};
-    bool library = e->library != NULL;
-    tn_status status =
-        tn_house_read_open(&e->judge.form, line, strlen(line), tn_asked_length(&request->subject), &e->house, &error);
+    tn_buffer own = {0};
+    bool library = e->library != NULL, completed;
+    const tn_typed_among among = {.form = &e->judge.form,
+                                  .form_number = form,
+                                  .library = e->library,
+                                  .options = tn_asked_options(&request->subject),
+                                  .max_length = tn_asked_length(&request->subject),
+                                  .tiles_free = true};
+    tn_status status = tn_typed_house(e->session, &among, line, &e->house, &completed);
     if (status != TN_OK)
-        return tn_session_bad_text(e->session, &error, "HOUSE", line);
+        return status;
+    if (completed)
+        status = tn_house_write(&e->house, &own, &error);
+    if (status != TN_OK)
+        return tn_session_fail(e->session, &error);
     status = tn_reply_new(library ? &tn_message_explained_house : &tn_message_explained_house_by_rules, answer, &error);
     tn_explained_house *of_library = status == TN_OK ? TN_REPLY(explained_house, answer) : NULL;
     tn_explained_house_by_rules *of_rules = status == TN_OK ? TN_REPLY(explained_house_by_rules, answer) : NULL;
     if (status == TN_OK) {
-        char *copy = strdup(line);
+        char *copy = completed ? own.data : strdup(line);
         *(library ? &of_library->house : &of_rules->house) = copy;
         status = copy ? TN_OK : tn_fail_memory(&error);
     }
@@ -743,7 +755,7 @@ static tn_status explain_line(tn_session *session, const tn_explain_request *req
     if (status == TN_OK) {
         status =
             tn_house_judge_open(session->opened->module, form, tn_asked_length(&request->subject), &e.judge, &error);
-        status = status == TN_OK ? explain(&e, request, line, answer) : tn_session_fail(session, &error);
+        status = status == TN_OK ? explain(&e, request, form, line, answer) : tn_session_fail(session, &error);
     }
     tn_house_clear(&e.house);
     tn_house_judge_close(&e.judge);

@@ -116,12 +116,12 @@ tn_status tn_numbered_number(tn_numbered *n, const tn_house *house, mpz_t varian
 /* The name #P:V of a house: the rank of its plan, and its number there. TN_INVALID (E1618) as above. */
 tn_status tn_numbered_name(tn_numbered *n, const tn_house *house, mpz_t plan, mpz_t variant, tn_error *error);
 
+/* The house that a line stands for (ask/house/typed.h), which the library has to keep if the line leaves values out.
+ * What is wrong is said. Clear *house in any case. */
+tn_status tn_numbered_typed(tn_numbered *n, const char *text, size_t max_length, tn_house *house);
+
 /* Its rank among all houses of the library. TN_LIMIT where they cannot be counted together. */
 tn_status tn_numbered_rank(tn_numbered *n, const tn_house *house, mpz_t rank, tn_error *error);
-
-/* The same of a house's line; of_all: `variant` becomes its rank among all houses of the library. */
-tn_status tn_numbered_name_line(tn_numbered *n, const char *line, size_t max_length, bool of_all, mpz_t plan,
-                                mpz_t variant, tn_error *error);
 
 /* Is the text #P:V, P:V or #R? */
 bool tn_is_house_number(const char *text);

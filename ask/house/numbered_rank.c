@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "ask/house/numbered.h"
+#include "ask/house/typed.h"
 
 /* ---- all houses */
 
@@ -103,16 +104,17 @@ tn_status tn_numbered_rank(tn_numbered *n, const tn_house *house, mpz_t rank, tn
     return status;
 }
 
-tn_status tn_numbered_name_line(tn_numbered *n, const char *line, size_t max_length, bool of_all, mpz_t plan,
-                                mpz_t variant, tn_error *error)
+tn_status tn_numbered_typed(tn_numbered *n, const char *text, size_t max_length, tn_house *house)
 {
-    tn_house house;
-    tn_status status = tn_house_read(&n->form, line, strlen(line), max_length, &house, error);
-    if (status == TN_OK)
-        status =
-            of_all ? tn_numbered_rank(n, &house, variant, error) : tn_numbered_name(n, &house, plan, variant, error);
-    tn_house_clear(&house);
-    return status;
+    const tn_typed_among among = {.form = &n->form,
+                                  .form_number = n->record->form,
+                                  .library = n->record,
+                                  .plans = n->plans,
+                                  .options = {.max_states = n->max_states, .max_length = (uint32_t)max_length},
+                                  .max_length = max_length,
+                                  .kept = true};
+    bool completed;
+    return tn_typed_house(n->session, &among, text, house, &completed);
 }
 
 bool tn_is_house_number(const char *text)

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "ask/house/numbered.h"
+#include "ask/house/typed.h"
 #include "ask/session/made.h"
 #include "ask/session/questions.h"
 #include "driver/house/change_text.h"
@@ -176,9 +177,9 @@ static tn_status read_varied(tn_numbered *n, const tn_vary_request *request, tn_
 {
     const char *text = request->house;
     tn_error error = {0};
-    tn_status status = tn_is_house_number(text) ? tn_numbered_house(n, text, house, &error)
-                                                : tn_house_read(&n->form, text, strlen(text),
-                                                                tn_asked_length(&request->subject), house, &error);
+    if (!tn_is_house_number(text))
+        return tn_numbered_typed(n, text, tn_asked_length(&request->subject), house);
+    tn_status status = tn_numbered_house(n, text, house, &error);
     return status == TN_OK ? TN_OK : tn_session_bad_text(n->session, &error, "HOUSE", text);
 }
 
@@ -366,15 +367,29 @@ static tn_status choose_form(tn_session *session, const char *wanted, uint32_t *
                                                   "the file has no form");
 }
 
-static tn_status read_house(building *b, const tn_house_form *form, size_t max_length)
+/* The library that is named, or the only one, if it is about the form: a line that leaves values out stands for one of
+ * its houses. */
+static const tn_house_library_record *library_of(const building *b, uint32_t form)
 {
-    const char *line = b->request->house;
-    tn_house house;
+    const tn_module *module = b->session->opened->module;
+    uint32_t found = tn_house_library_find(module, b->request->library);
+    bool about = found != TN_NO_RECORD && module->HOUSE_LIBRARY_records[found].form == form;
+    return about ? &module->HOUSE_LIBRARY_records[found] : NULL;
+}
+
+static tn_status read_house(building *b, const tn_house_form *form, uint32_t number, size_t max_length)
+{
+    const tn_typed_among among = {
+        .form = form,
+        .form_number = number,
+        .library = library_of(b, number),
+        .options = {.max_states = (uint32_t)b->request->max_states, .max_length = (uint32_t)max_length},
+        .max_length = max_length};
+    tn_house house = {0};
     tn_error error = {0};
-    tn_status status = tn_house_read(form, line, strlen(line), max_length, &house, &error);
-    if (status != TN_OK)
-        status = tn_session_bad_text(b->session, &error, "HOUSE", line);
-    else if (write_all(b, &house, &error) != TN_OK)
+    bool completed;
+    tn_status status = tn_typed_house(b->session, &among, b->request->house, &house, &completed);
+    if (status == TN_OK && write_all(b, &house, &error) != TN_OK)
         status = tn_session_fail(b->session, &error);
     tn_house_clear(&house);
     return status;
@@ -393,7 +408,7 @@ static tn_status read_line(building *b, size_t max_length)
     if (tn_schema_new(module, module->FORM_records[index].schema, 0, &schema, &error) != TN_OK)
         return tn_session_fail(b->session, &error);
     tn_form_ready(module, index, schema, &form);
-    status = read_house(b, &form, max_length);
+    status = read_house(b, &form, index, max_length);
     tn_schema_free(schema);
     return status;
 }

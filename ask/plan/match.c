@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/house/typed.h"
 #include "ask/plan/found.h"
 #include "ask/session/questions.h"
 #include "driver/plan/library.h"
@@ -151,8 +152,15 @@ void tn_house_matching_close(tn_house_matching *m)
 
 tn_status tn_house_match(tn_house_matching *m, const char *line, bool *holds, tn_error *error)
 {
-    tn_house house;
-    tn_status status = tn_house_read_open(&m->judge.form, line, strlen(line), m->max_length, &house, error);
+    const tn_typed_among among = {
+        .form = &m->judge.form, .form_number = m->form, .max_length = m->max_length, .tiles_free = true};
+    tn_first_mistake first = {0};
+    tn_typed_told told;
+    tn_house house = {0};
+    tn_status status = tn_typed_find(&among, line, strlen(line), tn_keep_first_mistake, &first, &house, &told, error);
+    tn_typed_told_clear(&told);
+    if (first.any)
+        *error = first.error;
     if (status == TN_OK)
         status = tn_house_rules_start(m->judge.rules, &house, error);
     for (size_t i = 0; status == TN_OK && i < m->count; i++)

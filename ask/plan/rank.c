@@ -83,26 +83,32 @@ static tn_status rank_plan(tn_session *session, const tn_rank_request *request, 
 
 /* ---- the number of a house */
 
+static tn_status number_house(tn_numbered *n, const tn_rank_request *request, const tn_house *house, tn_reply *answer,
+                              tn_error *error)
+{
+    tn_status status = tn_reply_new(&tn_message_ranked_house, answer, error);
+    if (status != TN_OK)
+        return status;
+    tn_ranked_house *ranked = answer->value;
+    ranked->library = tn_text(n->session->opened->module, n->record->name);
+    ranked->has_rank = request->of_all;
+    ranked->has_plan = ranked->has_variant = !request->of_all;
+    return request->of_all ? tn_numbered_rank(n, house, ranked->rank, error)
+                           : tn_numbered_name(n, house, ranked->plan, ranked->variant, error);
+}
+
 static tn_status rank_house(tn_session *session, const tn_rank_request *request, tn_reply *answer)
 {
     const tn_house_settings settings = tn_asked_houses(&request->subject);
     tn_numbered n;
+    tn_house house = {0};
     tn_error error = {0};
     tn_status status = tn_numbered_open(&n, session, &settings);
-    if (status == TN_OK) {
-        status = tn_reply_new(&tn_message_ranked_house, answer, &error);
-        tn_ranked_house *ranked = answer->value;
-        if (status == TN_OK)
-            status = tn_numbered_name_line(&n, request->house, settings.max_length, request->of_all, ranked->plan,
-                                           request->of_all ? ranked->rank : ranked->variant, &error);
-        if (status != TN_OK) {
-            tn_session_bad_text(session, &error, "HOUSE", request->house);
-        } else {
-            ranked->library = tn_text(session->opened->module, n.record->name);
-            ranked->has_rank = request->of_all;
-            ranked->has_plan = ranked->has_variant = !request->of_all;
-        }
-    }
+    if (status == TN_OK)
+        status = tn_numbered_typed(&n, request->house, settings.max_length, &house);
+    if (status == TN_OK && number_house(&n, request, &house, answer, &error) != TN_OK)
+        status = tn_session_bad_text(session, &error, "HOUSE", request->house);
+    tn_house_clear(&house);
     tn_numbered_close(&n);
     return status;
 }

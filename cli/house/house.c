@@ -192,7 +192,8 @@ static const tn_option options[] = {
     NUMBER("dpi", 0, "N", dpi, 10, 1200, "resolution of a .png (default 150)"),
     TEXT("form", 0, "NAME", form, "which form of the file; may be left out where the file has only one"),
     TEXT("library", 0, "NAME", library,
-         "the library of houses that the number belongs to; may be left out where the file has one"),
+         "the library of houses that the number belongs to, or that a line with values left out is of; may be left out "
+         "where the file has one"),
     OPTION_SET,
     NUMBER("max-length", 0, "N", max_length, 1, 1u << 24, "the longest plan that is accepted, in trays (default 4096)"),
     NUMBER("max-states", 0, "N", max_states, 1, UINT32_MAX, "the most states of an automaton of the library of plans"),
@@ -207,7 +208,9 @@ const tn_command tn_command_house = {
     .description =
         "Stands a plan up in a form (docs/houses.md): storeys, rooms with their functions, walls with their "
         "openings, decks, roofs, and what stands in the rooms. HOUSE is a house line in quotes: `plan ; section ; "
-        "functions ; faces ; tiles`, or a JSON object with one. Parts at its end that leave no choice may be left out. "
+        "functions ; faces ; tiles`, or a JSON object with one. Values may be left out (`_`), and parts (`-`, or "
+        "nothing at "
+        "the end): it is then the first house of the library, or of the form, that has what is typed. "
         "#P:V is variant V of the "
         "plan of rank P in a library of houses, and #R the house of rank R. Without -o the house's line is written. "
         "JSON has everything, in whole nanometres; CSV has the rooms with their areas; OBJ, PLY and GLB have the "

@@ -88,7 +88,9 @@ const tn_command tn_command_vary = {
         "and the differences in floor area and cost, if there are any. All other choices stay as they are where they "
         "can; where a "
         "change takes away a "
-        "tile or what is in a face, the first that fits takes its place.",
+        "tile or what is in a face, the first that fits takes its place. In HOUSE, a house line, values may be left "
+        "out "
+        "(docs/houses.md).",
     .example = "$ tartan vary cottage '#10:77' --at 1.body.ground",
     .options = options,
     .option_count = OPTION_COUNT(options),

@@ -116,7 +116,8 @@ const tn_command tn_command_match = {
         "given). For each plan it writes a line with the rules that match, of those that the file itself holds, "
         "in their order. The exit code is 0 whether or not a rule matches.\n\n"
         "If the file has rules about houses, or --rule names one, house lines are read instead (docs/houses.md). "
-        "Their tiles may be left out.",
+        "Their tiles may be left out, and so may other values: a line then stands for the first house of the form that "
+        "has what is typed.",
     .example = "$ tartan match lahave plans.txt --rule narrow-pair --format bits",
     .options = options,
     .option_count = OPTION_COUNT(options),

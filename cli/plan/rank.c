@@ -78,7 +78,8 @@ const tn_command tn_command_rank = {
                    "JSON object, in quotes. For a plan that the library does not hold, the "
                    "exit code is 1 and "
                    "the message says which clause it fails. "
-                   "HOUSE is a house line or a JSON object with one; of it the command writes #P:V: the rank of its "
+                   "HOUSE is a house line, in which values may be left out (docs/houses.md), or a JSON object with "
+                   "one; of it the command writes #P:V: the rank of its "
                    "plan, and how many houses on that plan come "
                    "before it. With --of-all it writes #R: how many houses of the library come before it.",
     .example = "$ tartan rank terrace \"$(tartan unrank terrace 1000)\"\n1000",

@@ -4,12 +4,30 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/nearest.h"
+#include "runtime/house/line.h"
 #include "runtime/house/solids.h"
 #include "runtime/plan/schema/value.h"
 #include "runtime/plan/text/text.h"
 
-enum { PLAN, SECTION, FUNCTIONS, FACES, TILES, PARTS };
+enum {
+    PLAN = TN_LINE_PLAN,
+    SECTION = TN_LINE_SECTION,
+    FUNCTIONS = TN_LINE_FUNCTIONS,
+    FACES = TN_LINE_FACES,
+    TILES = TN_LINE_TILES,
+    PARTS = TN_LINE_PARTS
+};
 static const char *const part_names[] = {"plan", "section", "functions", "faces", "tiles"};
+
+/* What is wrong with a line that may leave values out, all of it: NULL where the first mistake ends the reading, and
+ * where `_` is no value. */
+typedef struct tn_line_faults {
+    tn_line_error *said;
+    void *context;
+    bool any;     /* something is wrong */
+    bool unknown; /* a value is left out, or wrong: what it decides on cannot be known */
+} tn_line_faults;
 
 /* The words of one part. */
 typedef struct tn_part_reader {
@@ -17,7 +35,9 @@ typedef struct tn_part_reader {
     size_t at, end; /* what is left of it */
     size_t bars;    /* before that */
     int part;
-    bool there; /* has it words at all? */
+    bool there;    /* has it words at all? */
+    bool given_up; /* it is not known what its words are about */
+    tn_line_faults *faults;
 } tn_part_reader;
 
 static bool is_blank(char c)
@@ -45,9 +65,9 @@ static bool word_is(const tn_word *word, const char *text)
     return strlen(text) == word->size && memcmp(word->text, text, word->size) == 0;
 }
 
-static tn_part_reader open_part(const char *line, size_t size, int part)
+static tn_part_reader open_part(const char *line, size_t size, int part, tn_line_faults *faults)
 {
-    tn_part_reader reader = {.line = line, .at = 0, .end = size, .part = part};
+    tn_part_reader reader = {.line = line, .at = 0, .end = size, .part = part, .faults = faults};
     for (int i = 0; i < part && reader.at <= size; i++) {
         const char *next = reader.at < size ? memchr(line + reader.at, ';', size - reader.at) : NULL;
         reader.at = next ? (size_t)(next - line) + 1 : size;
@@ -60,6 +80,15 @@ static tn_part_reader open_part(const char *line, size_t size, int part)
 }
 
 /* ---- what is wrong */
+
+/* Goes on after a mistake, if all are to be said. */
+static tn_status go_on(tn_line_faults *faults, tn_status status, tn_error *error)
+{
+    if (status != TN_INVALID || !faults)
+        return status;
+    faults->any = faults->unknown = true;
+    return faults->said(faults->context, error);
+}
 
 static tn_status refuse_word(const tn_part_reader *reader, const tn_word *word, const char *what, tn_error *error)
 {
@@ -83,33 +112,53 @@ static void help_choices(tn_error *error, const char *lead, const char *const *t
     tn_error_help(error, "%s %s", lead, list);
 }
 
+/* Is the value left out? Then the next word, `_`, is passed over. */
+static bool is_left_out(tn_part_reader *reader)
+{
+    tn_part_reader look = *reader;
+    tn_word word = next_word(&look);
+    bool out = reader->faults && (!reader->there || reader->given_up || word_is(&word, TN_LEFT_OUT));
+    if (out && reader->there && !reader->given_up)
+        *reader = look;
+    return out;
+}
+
 /* Which of the texts the next word is. Where the part has no words, the only one there is. lead: what comes before the
  * texts in an error's help. */
 static tn_status choose(tn_part_reader *reader, const char *what, const char *lead, const char *const *texts,
                         size_t count, size_t *chosen, tn_error *error)
 {
+    static const char any[] = "; `_` leaves it open";
     *chosen = 0;
     if (!reader->there && count == 1)
         return TN_OK;
+    if (is_left_out(reader)) {
+        reader->faults->unknown |= count > 1;
+        return TN_OK;
+    }
     tn_word word = next_word(reader);
     for (; *chosen < count; ++*chosen)
         if (word.size > 0 && word_is(&word, texts[*chosen]))
             return TN_OK;
+    *chosen = 0;
     if (word.size > 0) {
         refuse_word(reader, &word, what, error);
     } else {
         tn_fail(error, TN_INVALID, E_BAD_HOUSE, "the house line ends too soon: in the %s, a %s is missing",
                 part_names[reader->part], what);
         tn_error_place(error, 0, reader->end + 1, reader->end + 1);
+        reader->given_up = true;
     }
     help_choices(error, lead, texts, count);
+    if (word.size == 0 && reader->faults && strlen(error->help) + sizeof any < sizeof error->help)
+        strcat(error->help, any);
     return TN_INVALID;
 }
 
 static tn_status at_end(tn_part_reader *reader, const char *what, tn_error *error)
 {
     tn_word word = next_word(reader);
-    if (word.size == 0)
+    if (word.size == 0 || reader->given_up)
         return TN_OK;
     char shown[TN_WORD_SHOWN];
     tn_fail(error, TN_INVALID, E_BAD_HOUSE, "`%s` is one word too many in the %s", tn_word_show(&word, shown),
@@ -157,9 +206,9 @@ static void lead_for_face(const tn_house *house, const tn_face *face, char lead[
 /* ---- reading */
 
 static tn_status read_section(const tn_house_form *form, const char *line, size_t size, uint32_t shapes[TN_CHOICES_MAX],
-                              tn_error *error)
+                              tn_line_faults *faults, tn_error *error)
 {
-    tn_part_reader reader = open_part(line, size, SECTION);
+    tn_part_reader reader = open_part(line, size, SECTION, faults);
     for (uint32_t i = 0; i < form->record->choice_count; i++) {
         const tn_choice_record *choice = tn_form_choice(form, i);
         const char *texts[TN_VALUES_MAX];
@@ -169,11 +218,12 @@ static tn_status read_section(const tn_house_form *form, const char *line, size_
         char what[120];
         snprintf(what, sizeof what, "value of `%.80s`", tn_text(form->module, choice->name));
         tn_status status = choose(&reader, what, "it can be", texts, choice->shape_count, &chosen, error);
+        status = go_on(faults, status, error);
         if (status != TN_OK)
             return status;
         shapes[i] = (uint32_t)chosen;
     }
-    return at_end(&reader, "choice of the form", error);
+    return go_on(faults, at_end(&reader, "choice of the form", error), error);
 }
 
 /* Names a value of one choice with which the form allows the section, if there is one. The house stays as it is. */
@@ -203,7 +253,7 @@ static tn_status check_section(tn_house *house, const char *line, size_t size, t
 {
     if (tn_house_section_stands(house))
         return TN_OK;
-    tn_part_reader reader = open_part(line, size, SECTION);
+    tn_part_reader reader = open_part(line, size, SECTION, NULL);
     size_t end = reader.end;
     tn_word first = next_word(&reader);
     while (end > 0 && is_blank(line[end - 1]))
@@ -255,7 +305,7 @@ static tn_status at_tray(const tn_house *house, const tn_part_reader *reader, ui
 {
     tn_part_reader look = *reader;
     tn_word word = next_word(&look);
-    if (!reader->there || word.size == 0 || look.bars == tray)
+    if (!reader->there || reader->given_up || word.size == 0 || look.bars == tray)
         return TN_OK;
     bool more = look.bars < tray;
     if (more)
@@ -270,17 +320,19 @@ static tn_status at_tray(const tn_house *house, const tn_part_reader *reader, ui
     return tn_word_refuse(&word, error);
 }
 
-static tn_status read_functions(tn_house *house, const char *line, size_t size, tn_error *error)
+static tn_status read_functions(tn_house *house, const char *line, size_t size, tn_line_faults *faults, tn_error *error)
 {
-    tn_part_reader reader = open_part(line, size, FUNCTIONS);
+    tn_part_reader reader = open_part(line, size, FUNCTIONS, faults);
     for (size_t i = 0; i < house->cell_count; i++) {
         tn_status status = at_tray(house, &reader, house->cells[i].tray, error);
+        reader.given_up |= status == TN_INVALID;
         if (status == TN_OK)
             status = read_function(house, &reader, &house->cells[i], error);
+        status = go_on(faults, status, error);
         if (status != TN_OK)
             return status;
     }
-    return at_end(&reader, "cell", error);
+    return go_on(faults, at_end(&reader, "cell", error), error);
 }
 
 /* Where the word names an opening, or `open`, that a lower roof keeps out of one of the first faces, says so. */
@@ -307,9 +359,9 @@ static void help_behind_roof(const tn_house *house, size_t faces, const tn_word 
     }
 }
 
-static tn_status read_faces(tn_house *house, const char *line, size_t size, tn_error *error)
+static tn_status read_faces(tn_house *house, const char *line, size_t size, tn_line_faults *faults, tn_error *error)
 {
-    tn_part_reader reader = open_part(line, size, FACES);
+    tn_part_reader reader = open_part(line, size, FACES, faults);
     for (size_t i = 0; i < house->face_count; i++) {
         uint32_t kinds[TN_FACE_KINDS_MAX];
         const char *texts[TN_FACE_KINDS_MAX];
@@ -322,10 +374,11 @@ static tn_status read_faces(tn_house *house, const char *line, size_t size, tn_e
         if (count > 1)
             lead_for_face(house, &house->faces[i], lead);
         tn_status status = count > 1 ? choose(&reader, "kind of that face", lead, texts, count, &chosen, error) : TN_OK;
-        if (status != TN_OK) {
+        if (status != TN_OK)
             help_behind_roof(house, i + 1, &word, error);
+        status = go_on(faults, status, error);
+        if (status != TN_OK)
             return status;
-        }
         house->faces[i].kind = kinds[chosen];
     }
     tn_part_reader look = reader;
@@ -333,7 +386,7 @@ static tn_status read_faces(tn_house *house, const char *line, size_t size, tn_e
     tn_status status = at_end(&reader, "face with a choice", error);
     if (status != TN_OK)
         help_behind_roof(house, house->face_count, &word, error);
-    return status;
+    return go_on(faults, status, error);
 }
 
 static tn_status no_tile(const tn_house *house, const tn_cell *cell, tn_error *error)
@@ -374,15 +427,15 @@ static tn_status read_tile(tn_house *house, tn_part_reader *reader, uint32_t cel
     return status;
 }
 
-static tn_status read_tiles(tn_house *house, const char *line, size_t size, tn_error *error)
+static tn_status read_tiles(tn_house *house, const char *line, size_t size, tn_line_faults *faults, tn_error *error)
 {
-    tn_part_reader reader = open_part(line, size, TILES);
+    tn_part_reader reader = open_part(line, size, TILES, faults);
     for (uint32_t i = 0; i < house->cell_count; i++) {
-        tn_status status = read_tile(house, &reader, i, error);
+        tn_status status = go_on(faults, read_tile(house, &reader, i, error), error);
         if (status != TN_OK)
             return status;
     }
-    return at_end(&reader, "cell whose function has tiles", error);
+    return go_on(faults, at_end(&reader, "cell whose function has tiles", error), error);
 }
 
 static tn_status check_parts(const char *line, size_t size, tn_error *error)
@@ -416,18 +469,18 @@ static tn_status read_open(const tn_house_form *form, const char *line, size_t s
     *house = (tn_house){0};
     tn_status status = check_parts(line, size, error);
     if (status == TN_OK)
-        status = read_plan(form, line, max_trays, open_part(line, size, PLAN), &trays, error);
+        status = read_plan(form, line, max_trays, open_part(line, size, PLAN, NULL), &trays, error);
     if (status == TN_OK)
-        status = read_section(form, line, size, shapes, error);
+        status = read_section(form, line, size, shapes, NULL, error);
     if (status == TN_OK)
         status = tn_house_stand(form, trays.trays, trays.length, shapes, house, error);
     free(trays.trays);
     if (status == TN_OK)
         status = check_section(house, line, size, error);
     if (status == TN_OK)
-        status = read_functions(house, line, size, error);
+        status = read_functions(house, line, size, NULL, error);
     if (status == TN_OK)
-        status = read_faces(house, line, size, error);
+        status = read_faces(house, line, size, NULL, error);
     return status;
 }
 
@@ -435,16 +488,252 @@ static tn_status read_whole(const tn_house_form *form, const char *line, size_t 
                             tn_error *error)
 {
     tn_status status = read_open(form, line, size, max_trays, house, error);
-    return status == TN_OK ? read_tiles(house, line, size, error) : status;
+    return status == TN_OK ? read_tiles(house, line, size, NULL, error) : status;
 }
 
 static tn_status read_tiles_there(const tn_house_form *form, const char *line, size_t size, size_t max_trays,
                                   tn_house *house, tn_error *error)
 {
     tn_status status = read_open(form, line, size, max_trays, house, error);
-    house->tiles_left_out = !open_part(line, size, TILES).there;
-    return status == TN_OK && !house->tiles_left_out ? read_tiles(house, line, size, error) : status;
+    house->tiles_left_out = !open_part(line, size, TILES, NULL).there;
+    return status == TN_OK && !house->tiles_left_out ? read_tiles(house, line, size, NULL, error) : status;
 }
+
+/* ---- lines that leave values out */
+
+/* A word that cannot be told apart by where it stands, since something before it is not known: is it one of these? */
+static tn_status is_any_of(const tn_part_reader *reader, const tn_word *word, const char *what,
+                           const char *const *texts, size_t count, tn_error *error)
+{
+    char shown[TN_WORD_SHOWN];
+    for (size_t i = 0; i < count; i++)
+        if (word_is(word, texts[i]))
+            return TN_OK;
+    refuse_word(reader, word, what, error);
+    const char *near = tn_nearest(tn_word_show(word, shown), texts, count);
+    if (near)
+        tn_error_help(error, "did you mean `%.80s`?", near);
+    else
+        help_choices(error, "it can be", texts, count);
+    return TN_INVALID;
+}
+
+static tn_status check_words(const tn_house_line *line, int part, const char *what, const char *const *texts,
+                             size_t count, tn_line_faults *faults, tn_error *error)
+{
+    tn_part_reader reader = open_part(line->text, line->size, part, faults);
+    tn_status status = TN_OK;
+    for (tn_word word = next_word(&reader); status == TN_OK && word.size > 0; word = next_word(&reader)) {
+        const char *dot = part == TILES ? memchr(word.text, '.', word.size) : NULL;
+        if (dot) /* where a tile stands is as free as the cell */
+            word.size = word.extent = (size_t)(dot - word.text);
+        if (!word_is(&word, TN_LEFT_OUT))
+            status = go_on(faults, is_any_of(&reader, &word, what, texts, count, error), error);
+    }
+    return status;
+}
+
+static tn_status check_functions(const tn_house_line *line, tn_line_faults *faults, tn_error *error)
+{
+    const tn_house_form *form = line->form;
+    const char *texts[TN_CELL_RULES_MAX + 1];
+    size_t count = 0;
+    for (uint32_t i = 0; i < tn_form_functions(form); i++)
+        texts[count++] = tn_text(form->module, tn_form_rule(form, i)->name);
+    texts[count++] = "void";
+    return check_words(line, FUNCTIONS, "function of the form", texts, count, faults, error);
+}
+
+static tn_status check_faces(const tn_house_line *line, tn_line_faults *faults, tn_error *error)
+{
+    const char *texts[TN_FACE_KINDS_MAX];
+    size_t count = 0;
+    while (count < TN_FACE_KIND_COUNT + line->form->record->opening_count) {
+        texts[count] = tn_form_kind_text(line->form, (uint32_t)count);
+        count++;
+    }
+    return check_words(line, FACES, "kind of face", texts, count, faults, error);
+}
+
+static tn_status check_tiles(const tn_house_line *line, tn_line_faults *faults, tn_error *error)
+{
+    const tn_module *module = line->form->module;
+    const tn_form_record *record = line->form->record;
+    const char **texts = malloc(((size_t)record->tile_count + 1) * sizeof *texts);
+    if (!texts)
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; i < record->tile_count; i++)
+        texts[i] = tn_text(module, module->TILE_records[record->tile_first + i].name);
+    tn_status status = check_words(line, TILES, "tile of the form", texts, record->tile_count, faults, error);
+    free(texts);
+    return status;
+}
+
+/* The functions, faces and tiles: by where they stand, as far as all before them is known. */
+static tn_status check_values(const tn_house_line *line, tn_house *house, bool stands, tn_line_faults *faults,
+                              tn_error *error)
+{
+    bool known = stands && !faults->unknown;
+    tn_status status =
+        known ? read_functions(house, line->text, line->size, faults, error) : check_functions(line, faults, error);
+    known = known && !faults->unknown;
+    if (status == TN_OK)
+        status = known ? read_faces(house, line->text, line->size, faults, error) : check_faces(line, faults, error);
+    known = known && !faults->unknown;
+    if (status == TN_OK)
+        status = known ? read_tiles(house, line->text, line->size, faults, error) : check_tiles(line, faults, error);
+    return status;
+}
+
+/* The plan and the section; *stands: the house does on them. */
+static tn_status check_beginning(tn_house_line *line, size_t max_trays, tn_house *house, bool *stands,
+                                 tn_line_faults *faults, tn_error *error)
+{
+    tn_part_reader plan = open_part(line->text, line->size, PLAN, faults), look = plan;
+    uint32_t shapes[TN_CHOICES_MAX] = {0};
+    tn_status status = TN_OK;
+    for (tn_word word = next_word(&look); status == TN_OK && word.size > 0; word = next_word(&look)) {
+        if (!word_is(&word, TN_LEFT_OUT))
+            continue;
+        status = tn_fail(error, TN_INVALID, E_BAD_HOUSE, "`_` leaves a value out, and the plan has to be whole");
+        tn_error_help(error, "`tartan complete` says which values a tray can still have");
+        tn_word_refuse(&word, error);
+    }
+    if (status == TN_OK)
+        status = read_plan(line->form, line->text, max_trays, plan, &line->plan, error);
+    status = go_on(faults, status, error);
+    bool known = !faults->unknown;
+    if (status == TN_OK)
+        status = read_section(line->form, line->text, line->size, shapes, faults, error);
+    if (status != TN_OK || !known)
+        return status;
+    status =
+        go_on(faults, tn_house_stand(line->form, line->plan.trays, line->plan.length, shapes, house, error), error);
+    *stands = status == TN_OK && house->form;
+    if (*stands && !faults->unknown)
+        status = go_on(faults, check_section(house, line->text, line->size, error), error);
+    return status;
+}
+
+/* A house without trays is a line, too: `-`. */
+static tn_status check_any(const tn_house_line *line, tn_error *error)
+{
+    size_t at = 0;
+    while (at < line->size && is_blank(line->text[at]))
+        at++;
+    if (at < line->size)
+        return TN_OK;
+    tn_status status = tn_fail(error, TN_INVALID, E_BAD_HOUSE, "the house line is empty");
+    tn_error_help(error, "it begins with a plan; what is left out behind that is found: plan ; section ; functions ; "
+                         "faces ; tiles");
+    tn_error_place(error, 0, 1, 1);
+    return status;
+}
+
+/* The values that are typed, part by part. */
+static tn_status take_values(tn_house_line *line, tn_error *error)
+{
+    size_t number = 0;
+    for (int part = SECTION; part < PARTS; part++) {
+        tn_line_part *to = &line->parts[part];
+        tn_part_reader reader = open_part(line->text, line->size, part, NULL);
+        to->values = malloc((line->size / 2 + 2) * sizeof *to->values);
+        if (!to->values)
+            return tn_fail_memory(error);
+        for (tn_word word = next_word(&reader); word.size > 0; word = next_word(&reader)) {
+            bool out = word_is(&word, TN_LEFT_OUT);
+            to->values[to->count++] = (tn_line_value){word.text, word.size, word.column, out, number};
+            number += !out;
+        }
+    }
+    line->typed = number;
+    return TN_OK;
+}
+
+/* Errors of what a JSON object has as its line are placed in the object. */
+typedef struct tn_line_placing {
+    const tn_house_line *line;
+    tn_line_error *said;
+    void *context;
+} tn_line_placing;
+
+void tn_house_line_place(const tn_house_line *line, size_t column, size_t column_end, tn_error *error)
+{
+    if (line->own.data && column > 0) {
+        column = tn_json_read_column(line->given, line->given_size, line->begin, column);
+        column_end = tn_json_read_column(line->given, line->given_size, line->begin, column_end);
+    }
+    tn_error_place(error, 0, column, column_end);
+}
+
+static tn_status say_placed(void *context, tn_error *error)
+{
+    tn_line_placing *p = context;
+    tn_house_line_place(p->line, error->column, error->column_end, error);
+    return p->said(p->context, error);
+}
+
+static const char no_object[] = "a house is a house line, or a JSON object with one: {\"house\": \"...\"}";
+
+static tn_status find_text(tn_house_line *line, const char *text, size_t size, tn_error *error)
+{
+    size_t at = 0;
+    line->given = line->text = text;
+    line->given_size = line->size = size;
+    while (at < size && is_blank(text[at]))
+        at++;
+    if (at == size || text[at] != '{')
+        return TN_OK;
+    tn_status status = tn_json_read_text(text, size, "house", &line->own, &line->begin, error);
+    if (status == TN_INVALID) { /* it is the object that is wrong: places in it are not mapped */
+        free(line->own.data);
+        line->own = (tn_buffer){0};
+        tn_error_help(error, "%s", no_object);
+    }
+    line->text = line->own.data ? line->own.data : "";
+    line->size = line->own.size;
+    return status;
+}
+
+tn_status tn_house_line_read(const tn_house_form *form, const char *text, size_t size, size_t max_trays,
+                             tn_line_error *said, void *context, tn_house_line *line, bool *wrong, tn_error *error)
+{
+    tn_line_placing placing = {line, said, context};
+    tn_line_faults faults = {.said = say_placed, .context = &placing};
+    tn_house house = {0};
+    bool stands = false;
+    *line = (tn_house_line){.form = form};
+    tn_status status = go_on(&faults, find_text(line, text, size, error), error);
+    if (status == TN_OK && !faults.any)
+        status = go_on(&faults, check_parts(line->text, line->size, error), error);
+    if (status == TN_OK && !faults.any)
+        status = go_on(&faults, check_any(line, error), error);
+    if (status == TN_OK && !faults.any)
+        status = check_beginning(line, max_trays, &house, &stands, &faults, error);
+    if (status == TN_OK)
+        status = check_values(line, &house, stands, &faults, error);
+    tn_house_clear(&house);
+    if (status == TN_OK)
+        status = take_values(line, error);
+    *wrong = faults.any;
+    return status;
+}
+
+void tn_house_line_clear(tn_house_line *line)
+{
+    for (int part = 0; part < PARTS; part++)
+        free(line->parts[part].values);
+    free(line->plan.trays);
+    free(line->own.data);
+    *line = (tn_house_line){0};
+}
+
+const char *tn_house_line_part(int part)
+{
+    return part_names[part];
+}
+
+/* ---- whole lines */
 
 typedef tn_status line_reader(const tn_house_form *form, const char *line, size_t size, size_t max_trays,
                               tn_house *house, tn_error *error);
@@ -463,7 +752,7 @@ static tn_status read_member(line_reader *read, const tn_house_form *form, const
             tn_error_place(error, 0, tn_json_read_column(text, size, begin, error->column),
                            tn_json_read_column(text, size, begin, error->column_end));
     } else if (status == TN_INVALID) {
-        tn_error_help(error, "a house is a house line, or a JSON object with one: {\"house\": \"...\"}");
+        tn_error_help(error, "%s", no_object);
     }
     free(line.data);
     return status;

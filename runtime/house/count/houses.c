@@ -494,7 +494,8 @@ static bool few_plans(const tn_houses *h, uint64_t most)
 {
     mpz_t plans;
     mpz_init(plans);
-    tn_library_kept(h->plans, TN_ALL_LENGTHS, plans);
+    if (!h->only)
+        tn_library_kept(h->plans, TN_ALL_LENGTHS, plans);
     bool few = h->only || mpz_cmp_ui(plans, most) <= 0;
     mpz_clear(plans);
     return few;

@@ -38,7 +38,8 @@ tn_status tn_houses_check_walls(const tn_house_form *form, const tn_house_librar
  * another; or what completes an open plan, and the best that the first measure, if there is one, still can be. */
 typedef enum tn_houses_aim { TN_HOUSES_SPREAD, TN_HOUSES_LEAST, TN_HOUSES_FRONT, TN_HOUSES_COMPLETE } tn_houses_aim;
 
-/* The houses on one plan of the library (only, of that length; NULL: on all), and the measures that they are counted
+/* The houses on one plan of the library (only, of that length; NULL: on all; without a library of plans, NULL, any
+ * plan will do), and the measures that they are counted
  * by (NULL: none). Both are borrowed. With measures only what they are for may be asked: tn_houses_spread, or
  * tn_houses_points.
  */

@@ -18,8 +18,11 @@ bool tn_houses_plan_lives(const tn_houses *h, uint32_t layer, uint32_t plan)
     return false;
 }
 
+/* Without a library the one plan that is looked at has a state after each of its trays: how many there are so far. */
 bool tn_houses_plan_alive(const tn_houses *h, uint32_t left, uint32_t plan)
 {
+    if (!h->plans)
+        return plan != TN_FRONTIER_NONE && plan + left == h->high;
     return plan != TN_FRONTIER_NONE &&
            (h->weighed ? tn_weighed_alive(h->weighed, left, plan) : tn_library_lives(h->plans, left, plan));
 }
@@ -78,7 +81,7 @@ static tn_status step(const tn_houses *h, uint32_t layer, uint32_t plan, tn_tray
     if (h->only && h->only[layer] != tray)
         return TN_OK;
     if (!h->weighed) {
-        *next = tn_library_next(h->plans, plan, tray);
+        *next = h->plans ? tn_library_next(h->plans, plan, tray) : plan + 1;
         return TN_OK;
     }
     tn_status status = tn_weighed_step(h->weighed, plan, tn_weighed_letter(h->weighed, tray), next, steps->by, error);

@@ -357,17 +357,20 @@ static tn_status choose_kinds(tn_facing *f, uint32_t at, tn_error *error)
     mpz_t houses;
     mpz_init(houses);
     stretch->count /= count;
-    for (size_t i = 0; status == TN_OK && !choosing->stop && i < count; i++) {
+    for (size_t i = 0; status == TN_OK && !choosing->stop && i < count; i++, stretch->first += stretch->count) {
         const tn_house *wanted = choosing->wanted;
-        bool is_it = wanted ? wanted->faces[at].kind == kinds[i] : i + 1 == count && !choosing->shown;
+        bool is_it =
+            wanted ? wanted->faces[at].kind == kinds[i] : i + 1 == count && !choosing->shown && !choosing->typed;
+        bool leads_on = true;
         face->kind = kinds[i];
-        if (!is_it)
+        if (choosing->typed)
+            status = tn_path_typed_face(choosing->typed, house, at, &leads_on, error);
+        if (status == TN_OK && leads_on && !is_it)
             status = count_houses(f, houses, error);
-        if (status == TN_OK && (is_it || !tn_choosing_passes(choosing, houses, false))) {
+        if (status == TN_OK && leads_on && (is_it || !tn_choosing_passes(choosing, houses, false))) {
             status = choose_kinds(f, at + 1, error);
             choosing->stop = choosing->stop || wanted;
         }
-        stretch->first += stretch->count;
     }
     *stretch = before;
     mpz_clear(houses);
@@ -428,13 +431,16 @@ tn_status tn_path_faces(tn_plan_path *a, tn_choosing *choosing, tn_house *house,
     tn_facing *all = faces.trays = calloc((size_t)a->length + 1, sizeof *faces.trays); /* the first is outside */
     if (!all)
         return tn_fail_memory(error);
+    bool fits = true;
     mpz_init_set_ui(faces.one, 1);
     tn_frontier_orders_trim(a->kind.frontier);
-    tn_status status = look_ahead(a, of_tray, error);
-    if (status == TN_OK)
+    tn_status status = choosing->typed ? tn_path_typed_begin(choosing->typed, house, &fits, error) : TN_OK;
+    if (status == TN_OK && fits)
+        status = look_ahead(a, of_tray, error);
+    if (status == TN_OK && fits)
         status = begin(&faces, error);
     faces.trays++;
-    if (status == TN_OK)
+    if (status == TN_OK && fits)
         status = a->length > 0 ? choose_tray(&faces, 0, error) : show(choosing, house, error);
     for (uint32_t i = 0; i <= a->length; i++) {
         clear_left(&all[i].slices);

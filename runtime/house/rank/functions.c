@@ -226,6 +226,13 @@ static bool has_functions(const tn_coming *c, uint32_t number, const tn_house *h
     return same;
 }
 
+static bool is_typed(const tn_coming *c, uint32_t number, const tn_house *house, const tn_path_typed *typed)
+{
+    size_t cells;
+    return tn_path_typed_functions(typed, house, c->tray,
+                                   tn_interned(&c->path->kind.frontier->slices.functions, number, &cells));
+}
+
 /* houses := those with these slices in this place, and the functions so far. */
 static tn_status count_houses(const tn_coming *c, const tn_frontier_furnished *slices, size_t count, mpz_t houses,
                               tn_error *error)
@@ -341,7 +348,12 @@ static tn_status choose(tn_coming *c, tn_choosing *choosing, tn_house *house, tn
         const tn_frontier_furnished *group = &slices->items[first];
         mpz_ptr houses = NULL;
         end = end_of(slices, first);
-        status = find_houses(c, i, group, end - first, &houses, error);
+        if (choosing->typed && !is_typed(c, group->functions, house, choosing->typed))
+            continue;
+        if (choosing->typed)
+            status = tn_path_typed_try(choosing->typed, error);
+        if (status == TN_OK)
+            status = find_houses(c, i, group, end - first, &houses, error);
         if (status != TN_OK || tn_choosing_passes(choosing, houses, has_functions(c, group->functions, wanted)))
             continue;
         status = take(c, group, end - first, house, &of_tray[c->tray], error);

@@ -88,6 +88,8 @@ static tn_status try_section(tn_plan_houses *p, tn_choosing *choosing, const tn_
                              tn_error *error)
 {
     tn_plan_path *path;
+    if (choosing->typed && !tn_path_typed_section(choosing->typed, section))
+        return TN_OK;
     tn_status status = path_of(p, section, &path, error);
     if (status != TN_OK ||
         tn_choosing_passes(choosing, tn_path_layer(path, 0)->ahead[0], has_section(choosing->wanted, section)))
@@ -231,6 +233,101 @@ tn_status tn_plan_houses_number(tn_plan_houses *p, const tn_house *house, mpz_t 
     mpz_add(variant, variant, f.before);
     tn_house_clear(&faced);
     furnishing_end(&f);
+    return status;
+}
+
+/* ---- what is typed */
+
+/* Takes the first tile of each cell that is as is typed, unless clauses ask what all tiles cost together: then all
+ * combinations are gone through. */
+typedef struct tn_taking_typed {
+    tn_furnishing furnishing;
+    tn_path_typed *typed;
+} tn_taking_typed;
+
+/* The cell gets the first such tile. */
+static tn_status take_tile(const tn_path_typed *typed, tn_house *house, uint32_t cell, bool *found, tn_error *error)
+{
+    tn_variants tiles;
+    char text[TN_VARIANT_TEXT];
+    tn_status status = tn_tile_variants(house, cell, &tiles, error);
+    *found = status == TN_OK && tiles.count == 0;
+    for (size_t i = 0; !*found && i < tiles.count; i++) {
+        tn_variant_text(house->form, &tiles.variants[i], text);
+        *found = tn_line_allows(typed->asked, TN_LINE_TILES, typed->tile_value[cell], text);
+        house->cells[cell].variant = i;
+    }
+    tn_variants_clear(&tiles);
+    return status;
+}
+
+/* Has the cell the tile that is typed? */
+static tn_status has_tile(const tn_path_typed *typed, const tn_house *house, uint32_t cell, bool *has, tn_error *error)
+{
+    tn_variants tiles;
+    char text[TN_VARIANT_TEXT];
+    tn_status status = tn_tile_variants(house, cell, &tiles, error);
+    *has = status == TN_OK && tiles.count == 0;
+    if (tiles.count > 0) {
+        tn_variant_text(house->form, &tiles.variants[house->cells[cell].variant], text);
+        *has = tn_line_allows(typed->asked, TN_LINE_TILES, typed->tile_value[cell], text);
+    }
+    tn_variants_clear(&tiles);
+    return status;
+}
+
+static tn_status take_first_tiles(tn_taking_typed *t, tn_house *house, tn_error *error)
+{
+    tn_status status = TN_OK;
+    t->furnishing.found = true;
+    for (uint32_t i = 0; status == TN_OK && t->furnishing.found && i < house->cell_count; i++)
+        status = take_tile(t->typed, house, i, &t->furnishing.found, error);
+    return status;
+}
+
+static tn_status try_all_tiles(tn_taking_typed *t, tn_house *house, tn_error *error)
+{
+    tn_furnishing *f = &t->furnishing;
+    mpz_t first;
+    tn_status status = TN_OK;
+    mpz_init(first);
+    tn_furnish_at(f->furnisher, first);
+    mpz_clear(first);
+    do {
+        status = tn_path_typed_try(t->typed, error);
+        f->found = status == TN_OK;
+        for (uint32_t i = 0; status == TN_OK && f->found && i < house->cell_count; i++)
+            status = has_tile(t->typed, house, i, &f->found, error);
+    } while (status == TN_OK && !f->found && tn_furnish_next(f->furnisher));
+    return status;
+}
+
+static tn_status take_typed(void *context, tn_house *house, const mpz_t before, bool *stop, tn_error *error)
+{
+    tn_taking_typed *t = context;
+    tn_furnishing *f = &t->furnishing;
+    (void)before;
+    tn_status status = tn_furnish(f->furnisher, house, NULL, f->count, error);
+    if (status == TN_OK && mpz_sgn(f->count) > 0)
+        status = tn_furnisher_prices(f->furnisher) ? try_all_tiles(t, house, error) : take_first_tiles(t, house, error);
+    *stop = f->found;
+    return status;
+}
+
+tn_status tn_plan_houses_typed(tn_plan_houses *p, const tn_line_asked *asked, uint64_t *work, tn_house *house,
+                               bool *found, tn_error *error)
+{
+    tn_path_typed typed = {.asked = asked, .work = work};
+    tn_taking_typed taking = {.typed = &typed};
+    mpz_t none;
+    mpz_init(none);
+    furnishing_begin(p, &taking.furnishing);
+    tn_choosing choosing = {.number = none, .typed = &typed, .faced = take_typed, .context = &taking};
+    tn_status status = choose_section(p, &choosing, house, error);
+    *found = status == TN_OK && taking.furnishing.found;
+    furnishing_end(&taking.furnishing);
+    tn_path_typed_clear(&typed);
+    mpz_clear(none);
     return status;
 }
 

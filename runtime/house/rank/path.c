@@ -8,6 +8,8 @@
 
 bool tn_choosing_passes(const tn_choosing *c, const mpz_t houses, bool is_wanted)
 {
+    if (c->typed)
+        return mpz_sgn(houses) == 0;
     if (c->wanted ? is_wanted : mpz_cmp(c->number, houses) < 0)
         return false;
     if (c->wanted)

@@ -3,17 +3,46 @@
 #define TARTAN_HOUSE_RANK_PATH_H
 
 #include "runtime/house/count/data.h"
+#include "runtime/house/line.h"
 #include "runtime/house/rank/rank.h"
 
 /* Shown a house without its tiles. It stays the shower's, and the callee may set its tiles. before: how many houses
  * with its functions and faces are passed over (those of choosing->number; with `wanted`, before the first of them). */
 typedef tn_status tn_path_faced(void *context, tn_house *house, const mpz_t before, bool *stop, tn_error *error);
 
-/* Houses from a number on among those on the plan, or one house and its number. Choices are gone through in their
- * order: those before the house's are passed over, each as a whole. */
+/* What is typed of the houses that are looked for. When their functions are known, so is which value of the line is
+ * about which face and which cell. */
+typedef struct tn_path_typed {
+    const tn_line_asked *asked;
+    uint64_t *work;     /* choices that may still be tried */
+    size_t *face_value; /* [faces] of the line's part; SIZE_MAX: the face leaves no choice */
+    size_t *tile_value; /* [cells] the same */
+    size_t *known_with; /* [cells] the last face that its tiles depend on */
+} tn_path_typed;
+
+void tn_path_typed_clear(tn_path_typed *typed);
+
+/* TN_LIMIT (E1617) once too many choices were tried. */
+tn_status tn_path_typed_try(tn_path_typed *typed, tn_error *error);
+
+bool tn_path_typed_section(const tn_path_typed *typed, const tn_house *section);
+
+/* May the tray have these functions? */
+bool tn_path_typed_functions(const tn_path_typed *typed, const tn_house *house, uint32_t tray,
+                             const uint32_t *functions);
+
+/* The functions are known: *fits: may the house have them, by how many values the line has for faces and tiles? */
+tn_status tn_path_typed_begin(tn_path_typed *typed, const tn_house *house, bool *fits, tn_error *error);
+
+/* The faces up to this one are chosen: *fits: so far there is a tile that is typed in each cell that these decide. */
+tn_status tn_path_typed_face(tn_path_typed *typed, tn_house *house, size_t face, bool *fits, tn_error *error);
+
+/* Houses from a number on among those on the plan, or one house and its number, or those that have what is typed.
+ * Choices are gone through in their order: those before the house's are passed over, each as a whole. */
 typedef struct tn_choosing {
     mpz_ptr number;         /* of the first house among those that are left; with `wanted`: houses passed over */
     const tn_house *wanted; /* or NULL */
+    tn_path_typed *typed;   /* or NULL */
     tn_path_faced *faced;
     void *context;
     bool shown, stop; /* a house was shown: there is nothing more to pass over; all ends */

@@ -8,6 +8,7 @@
 #define TARTAN_HOUSE_RANK_RANK_H
 
 #include "runtime/house/count/houses.h"
+#include "runtime/house/line.h"
 
 /* How many houses come before the first on this plan, one of the library's. */
 tn_status tn_houses_before(tn_houses *houses, const tn_tray *trays, uint32_t length, mpz_t before, tn_error *error);
@@ -42,6 +43,13 @@ tn_status tn_plan_houses_faced(tn_plan_houses *plan, uint64_t most, uint64_t *fa
 
 /* How many houses come before this one, which is on the plan. TN_INVALID (E1618) if the library does not keep it. */
 tn_status tn_plan_houses_number(tn_plan_houses *plan, const tn_house *house, mpz_t variant, tn_error *error);
+
+/* The first house that has what is typed of a line (its plan is not looked at); *found: there is one. work: choices
+ * that may be tried, TN_TYPED_WORK to begin with; past them it is TN_LIMIT (E1617). What stands before what is left out
+ * is counted with; what stands behind it is tried. Clear *house in any case. */
+#define TN_TYPED_WORK 200000u
+tn_status tn_plan_houses_typed(tn_plan_houses *plan, const tn_line_asked *asked, uint64_t *work, tn_house *house,
+                               bool *found, tn_error *error);
 
 /* Houses by rank. The plans that were asked for last are kept with their states, as long as these are not too many.
  * Borrows the houses. Free with tn_house_ranks_free, also after a failure. */

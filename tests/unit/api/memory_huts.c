@@ -110,6 +110,21 @@ static tartan_status read_house(const huts *h, tartan_error *error)
     return status;
 }
 
+/* With values left out; one that no house has. */
+static tartan_status read_typed(const huts *h, tartan_error *error)
+{
+    static const char open[] = "8' room:10' ; _ ; - ; window", none[] = "8' room:10' ; vault(3') ; _ ; wall";
+    tartan_house *house = NULL;
+    tartan_status status = tartan_house_read(h->library, open, sizeof open - 1, &house, error);
+    tartan_house_free(house);
+    if (status == TARTAN_OK) {
+        status = tartan_house_read(h->library, none, sizeof none - 1, &house, error);
+        assert_true(status == TARTAN_INVALID || status == TARTAN_MEMORY);
+        status = status == TARTAN_INVALID ? TARTAN_OK : status;
+    }
+    return status;
+}
+
 static tartan_status mesh(const huts *h, tartan_error *error)
 {
     tartan_mesh *made = NULL;
@@ -137,8 +152,8 @@ static tartan_status files(const huts *h, tartan_error *error)
 
 static void fails_cleanly(void **state)
 {
-    static operation *const operations[] = {open_and_count, count_on,   number, sample, best,
-                                            vary,           read_house, mesh,   files};
+    static operation *const operations[] = {open_and_count, count_on,   number,     sample, best,
+                                            vary,           read_house, read_typed, mesh,   files};
     for (size_t i = 0; i < sizeof operations / sizeof *operations; i++) {
         size_t failures = 0;
         for (int all_after = 0; all_after < 2; all_after++) {
