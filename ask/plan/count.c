@@ -4,6 +4,7 @@
 
 #include "ask/house/numbered_count.h"
 #include "ask/place/kit.h"
+#include "ask/plan/ways.h"
 #include "ask/session/made.h"
 #include "ask/session/questions.h"
 #include "ask/session/requests.h"
@@ -386,6 +387,7 @@ static const char *asks_library(const tn_count_request *r)
            : r->plan                ? "plan"
            : r->clauses             ? "clauses"
            : r->mirror              ? "mirror"
+           : r->ways                ? "ways"
            : r->no_effects          ? "no-effects"
                                     : NULL;
 }
@@ -405,8 +407,26 @@ static tn_status draw(tn_session *session, const tn_answer_picture *asked, tn_co
     return tn_answer_picture_give(session, asked, &to, status, &error, (tn_list *)&values->files, &values->has_files);
 }
 
+/* What counting ways is not asked with, or NULL. */
+static const char *asks_besides(const tn_count_request *r)
+{
+    return r->by ? "by" : r->mirror ? "mirror" : r->no_effects ? "no-effects" : NULL;
+}
+
+static tn_status count_ways(tn_session *session, const tn_count_request *request, tn_reply *answer)
+{
+    const char *besides = asks_besides(request);
+    if (counts_houses(session, request))
+        return tn_ways_refuse_houses(session);
+    return besides ? tn_session_refuse(session, "ask for one after the other", "--ways and --%s exclude each other",
+                                       besides)
+                   : tn_count_ways(session, request, answer);
+}
+
 static tn_status count(tn_session *session, const tn_count_request *request, tn_reply *answer)
 {
+    if (request->ways)
+        return count_ways(session, request, answer);
     if (counts_houses(session, request))
         return count_houses(session, request, answer);
     return request->by ? count_plans_by(session, request, answer) : count_plans(session, request, answer);

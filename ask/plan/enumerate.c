@@ -108,7 +108,7 @@ static tn_status enumerate(enumeration *e, tn_reply *answer)
 {
     tn_cursor *cursor;
     tn_error error;
-    tn_found_of of = {.plans = e->ready, .from = e->rank, .to = e->to};
+    tn_found_of of = {.plans = e->ready, .from = e->rank, .to = e->to, .ways = e->request->ways};
     tn_finds finds = {.session = e->session, .of = &of, .answer = answer, .lines = e->request->lines};
     tn_status status = tn_finds_begin(&finds, &error);
     if (status != TN_OK || finds.ended)
@@ -149,6 +149,7 @@ static const char *asks_library(const tn_enumerate_request *r)
            : r->plan                ? "plan"
            : r->mirror              ? "mirror"
            : r->lines               ? "lines"
+           : r->ways                ? "ways"
                                     : NULL;
 }
 
@@ -191,6 +192,8 @@ tn_status tn_ask_enumerate(tn_session *session, const tn_enumerate_request *requ
         return status;
     if (!request->plan && !tn_session_of_houses(session, &request->subject))
         return enumerate_plans(session, request, answer);
+    if (request->ways)
+        return tn_ways_refuse_houses(session);
     return request->mirror ? tn_session_refuse(session, NULL, "--mirror is about plans: of houses all are written")
                            : enumerate_houses(session, request, answer);
 }

@@ -27,6 +27,10 @@ tn_status tn_finds_begin(tn_finds *finds, tn_error *error)
         houses->library = tn_text(module, of->houses->record->name);
     if (best)
         best->library = tn_text(module, of->houses->record->name);
+    if (status == TN_OK && of->ways) {
+        status = tn_ways_open(&finds->ways, of->plans, error);
+        finds->has_ways = true;
+    }
     finds->ended = status == TN_OK && taker && taker->begins && !taker->begins(taker->context, finds->of);
     return status;
 }
@@ -99,6 +103,9 @@ static tn_status add_plan(const tn_finds *finds, const tn_found_one *found, tn_e
     const tn_wishes *wishes = finds->of->wishes;
     mpz_set(plan->rank, found->rank);
     plan->has_plan = finds->lines;
+    plan->has_ways = found->ways != NULL;
+    if (found->ways)
+        mpz_set(plan->ways, found->ways);
     plan->has_value = wishes && wishes->count == 1;
     plan->has_values = wishes && wishes->count > 1;
     if (wishes && set_value(wishes, found->values, plan->value, &plan->values, error) != TN_OK)
@@ -144,14 +151,25 @@ static tn_status add(const tn_finds *finds, const tn_found_one *found, tn_error 
 tn_status tn_finds_give(tn_finds *finds, const tn_found_one *found, tn_error *error)
 {
     const tn_taker *taker = finds->session->taker;
+    tn_found_one all = *found;
+    tn_status status = TN_OK;
+    if (finds->has_ways) {
+        status = tn_ways_find(&finds->ways, found->trays, found->length, error);
+        all.ways = finds->ways.ways;
+    }
+    if (status != TN_OK)
+        return status;
     if (!taker)
-        return add(finds, found, error);
-    finds->ended = !taker->takes(taker->context, found);
+        return add(finds, &all, error);
+    finds->ended = !taker->takes(taker->context, &all);
     return finds->ended ? tn_fail(error, TN_STOPPED, TN_CODE_NONE, "enough was found") : TN_OK;
 }
 
-tn_status tn_finds_end(const tn_finds *finds, tn_status status, const tn_error *error)
+tn_status tn_finds_end(tn_finds *finds, tn_status status, const tn_error *error)
 {
+    if (finds->has_ways)
+        tn_ways_close(&finds->ways);
+    finds->has_ways = false;
     if (status == TN_OK || (status == TN_STOPPED && finds->ended))
         return TN_OK;
     return tn_session_fail(finds->session, error);

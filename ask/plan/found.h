@@ -2,6 +2,7 @@
 #ifndef TARTAN_ASK_PLAN_FOUND_H
 #define TARTAN_ASK_PLAN_FOUND_H
 
+#include "ask/plan/ways.h"
 #include "ask/session/session.h"
 #include "runtime/house/house.h"
 #include "runtime/plan/measure/amount.h"
@@ -24,6 +25,7 @@ typedef struct tn_found_one {
     uint32_t length;
     tn_house *house;    /* NULL: it is a plan */
     mpz_srcptr variant; /* of a house: its number among those on its plan */
+    mpz_srcptr ways;    /* of a plan: in how many it is derived, if that was asked for; or NULL */
     mpq_t *values;      /* of the measures that were asked for, in nanometres to their power; or NULL */
 } tn_found_one;
 
@@ -35,6 +37,7 @@ typedef struct tn_found_of {
     mpz_ptr from;            /* of an enumeration: the first rank, which `begins` may raise; or NULL */
     mpz_srcptr to;           /* one past its last rank; or NULL */
     uint64_t before;         /* how many of its limit `begins` has already */
+    bool ways;               /* of each plan are told, too */
     mpq_srcptr weight;       /* of a sample that is drawn by weights: of all plans; or NULL */
 } tn_found_of;
 
@@ -51,8 +54,10 @@ typedef struct tn_finds {
     tn_session *session;
     tn_found_of *of;
     tn_reply *answer;
-    bool lines; /* of plans in the answer */
-    bool ended; /* by the taker */
+    bool lines;    /* of plans in the answer */
+    bool ended;    /* by the taker */
+    bool has_ways; /* `ways` is open: `of` tells them */
+    tn_ways_of_plans ways;
 } tn_finds;
 
 /* An empty answer, and the taker begins. Ends with TN_OK also if it takes nothing: look at `ended`. */
@@ -62,7 +67,7 @@ tn_status tn_finds_begin(tn_finds *finds, tn_error *error);
 tn_status tn_finds_give(tn_finds *finds, const tn_found_one *found, tn_error *error);
 
 /* What the question comes to after that status, which is said. */
-tn_status tn_finds_end(const tn_finds *finds, tn_status status, const tn_error *error);
+tn_status tn_finds_end(tn_finds *finds, tn_status status, const tn_error *error);
 
 /* A plan and a house as answers have them, to be freed: the line, and the members of JSON that a message says
  * (plan_members, house_members). `line` or `members` may be NULL: not wanted. */

@@ -4,6 +4,7 @@
 
 #include "ask/house/numbered.h"
 #include "ask/plan/found.h"
+#include "ask/plan/ways.h"
 #include "ask/session/questions.h"
 #include "ask/session/spelled.h"
 #include "driver/plan/library.h"
@@ -53,8 +54,20 @@ static tn_status say_why(tn_session *session, const tn_ready_library *ready, con
     return status == TN_OK ? TN_INVALID : tn_session_fail(session, &error);
 }
 
-static tn_status answer_plan(tn_session *session, const tn_ready_library *ready, const tn_plan *plan, size_t longest,
-                             tn_reply *answer)
+static tn_status find_ways(const tn_ready_library *ready, const tn_plan *plan, tn_ranked_plan *ranked, tn_error *error)
+{
+    tn_ways_of_plans ways;
+    tn_status status = tn_ways_open(&ways, ready, error);
+    if (status == TN_OK)
+        status = tn_ways_find(&ways, plan->trays, plan->length, error);
+    ranked->has_ways = status == TN_OK;
+    mpz_set(ranked->ways, ways.ways);
+    tn_ways_close(&ways);
+    return status;
+}
+
+static tn_status answer_plan(tn_session *session, const tn_ready_library *ready, const tn_plan *plan,
+                             const tn_rank_request *request, tn_reply *answer)
 {
     tn_error error;
     tn_status status = tn_reply_new(&tn_message_ranked_plan, answer, &error);
@@ -62,9 +75,11 @@ static tn_status answer_plan(tn_session *session, const tn_ready_library *ready,
         return tn_session_fail(session, &error);
     tn_ranked_plan *ranked = answer->value;
     ranked->library = tn_text(session->opened->module, ready->record->name);
-    return tn_library_rank(ready->library, plan->trays, plan->length, ranked->rank)
-               ? TN_OK
-               : say_why(session, ready, plan, longest);
+    if (!tn_library_rank(ready->library, plan->trays, plan->length, ranked->rank))
+        return say_why(session, ready, plan, tn_asked_length(&request->subject));
+    if (request->ways && find_ways(ready, plan, ranked, &error) != TN_OK)
+        return tn_session_fail(session, &error);
+    return TN_OK;
 }
 
 static tn_status rank_plan(tn_session *session, const tn_rank_request *request, tn_reply *answer)
@@ -76,7 +91,7 @@ static tn_status rank_plan(tn_session *session, const tn_rank_request *request, 
     if (status == TN_OK)
         status = tn_session_plan(session, ready->schema, request->plan, longest, &plan);
     if (status == TN_OK)
-        status = answer_plan(session, ready, &plan, longest, answer);
+        status = answer_plan(session, ready, &plan, request, answer);
     free(plan.trays);
     return status;
 }
@@ -118,6 +133,8 @@ tn_status tn_ask_rank(tn_session *session, const tn_rank_request *request, tn_re
     *answer = (tn_reply){0};
     if (!request->plan == !request->house)
         return tn_session_refuse(session, NULL, "say whose number is asked for: a plan's or a house's");
+    if (request->house && request->ways)
+        return tn_ways_refuse_houses(session);
     if (request->house)
         return rank_house(session, request, answer);
     if (request->of_all)

@@ -189,7 +189,7 @@ static tn_status sample_plans(tn_session *session, const tn_sample_request *requ
         return status;
     if (request->diverse && !request->uniform && ready->record->weight_count > 0)
         return refuse_diverse(session, ready);
-    tn_found_of of = {.plans = ready};
+    tn_found_of of = {.plans = ready, .ways = request->ways};
     tn_finds finds = {.session = session, .of = &of, .answer = answer, .lines = request->lines};
     drawing d = {.session = session, .library = ready->library, .request = request};
     mpq_init(d.weight);
@@ -294,6 +294,8 @@ tn_status tn_ask_sample(tn_session *session, const tn_sample_request *request, t
     bool houses = r->plan || tn_session_of_houses(session, &r->subject);
     if (houses && r->generated)
         return tn_session_refuse(session, NULL, "`generated` is asked of plans, and this is a library of houses");
+    if (houses && r->ways)
+        return tn_ways_refuse_houses(session);
     if (houses && (r->has_length || r->has_per_length || r->diverse))
         return refuse_for_houses(session, r);
     tn_status status = check(session, r);

@@ -153,7 +153,7 @@ typedef struct enumerate_settings {
     tn_written_settings written;
     const char *from, *to, *plan;
     tn_option_number limit;
-    bool mirror;
+    bool mirror, ways;
     tn_kit_options kit;
 } enumerate_settings;
 
@@ -205,6 +205,7 @@ static tn_enumerate_request request_of(const enumerate_settings *s)
                                   .limit = s->limit.value,
                                   .plan = s->plan,
                                   .mirror = s->mirror,
+                                  .ways = s->ways,
                                   .kit = tn_kit_options_asked(&s->kit)};
 }
 
@@ -282,6 +283,7 @@ static const tn_option options[] = {
     OPTIONS_KIT("list"),
     FLAG("mirror", 0, mirror,
          "one of each pair of plans that mirror each other; ranks stay those of the whole library"),
+    OPTION_PLAN_WAYS,
     OPTION_PLAN_FORMAT,
     OPTION_COLUMNS,
     OPTION_CSV_SAFE,

@@ -17,7 +17,9 @@
 static bool job_row_writer(tn_job *job, const tn_written_settings *settings, const tn_row_source *source,
                            tn_plan_writer **writer)
 {
-    if (!tn_job_writes(job, source->rows ? "a list of houses" : "a list of plans", settings->output,
+    char what[64];
+    snprintf(what, sizeof what, "a list of %s", source->rows ? source->rows->what : "plans");
+    if (!tn_job_writes(job, what, settings->output,
                        source->rows ? TN_WRITES_ROWS & ~(TN_WRITES(BIN) | TN_WRITES(PARQUET)) : TN_WRITES_ROWS))
         return false;
     if (settings->csv_safe && settings->format != TN_FORMAT_CSV) {
@@ -71,17 +73,20 @@ enum { LOOK_EVERY = 4096 };
 
 static bool open_plans(tn_found_rows *rows)
 {
+    static const tn_row_columns ways = {
+        .what = "plans with their ways", .table = "plans", .before = true, .names = {"ways"}, .count = 1};
     const tn_ready_library *ready = rows->of.plans;
     const tn_written_settings *settings = rows->settings;
     char command[400];
     tn_provenance described;
     mpz_t ranks;
     mpz_init(ranks);
-    snprintf(command, sizeof command, "%s%s%s", rows->made, settings->columns ? " --columns" : "",
-             rows->of.weight ? " (by weight)" : "");
+    snprintf(command, sizeof command, "%s%s%s%s", rows->made, settings->columns ? " --columns" : "",
+             rows->of.ways ? " --ways" : "", rows->of.weight ? " (by weight)" : "");
     tn_provenance_describe(&rows->job->opened, ready, rows->job->settings->operands.items[0], command, &described);
     tn_library_kept(ready->library, TN_ALL_LENGTHS, ranks);
-    const tn_row_source source = {.schema = ready->schema, .metadata = &described.metadata, .ranks = ranks};
+    const tn_row_source source = {
+        .schema = ready->schema, .metadata = &described.metadata, .rows = rows->of.ways ? &ways : NULL, .ranks = ranks};
     bool opened = job_row_writer(rows->job, settings, &source, &rows->writer);
     mpz_clear(ranks);
     return opened;
@@ -89,7 +94,8 @@ static bool open_plans(tn_found_rows *rows)
 
 static bool open_houses(tn_found_rows *rows)
 {
-    static const tn_row_columns columns = {"houses", {"plan_rank", "variant", "house"}, 3};
+    static const tn_row_columns columns = {
+        .what = "houses", .table = "houses", .names = {"plan_rank", "variant", "house"}, .count = 3};
     const tn_numbered *n = rows->of.houses;
     tn_provenance described;
     tn_provenance_describe_houses(&rows->job->opened, n->plans, tn_text(n->form.module, n->record->name),
@@ -208,13 +214,24 @@ static tn_status write_house(tn_found_rows *rows, const tn_found_one *found, tn_
     return status;
 }
 
+static tn_status write_plan(tn_found_rows *rows, const tn_found_one *found, tn_error *error)
+{
+    if (!found->ways)
+        return tn_plan_writer_write(rows->writer, found->rank, found->trays, found->length, error);
+    char *ways = mpz_get_str(NULL, 10, found->ways);
+    if (!ways)
+        return tn_fail_memory(error);
+    const tn_plan_row row = {.trays = found->trays, .length = found->length, .texts = {ways}};
+    tn_status status = tn_plan_writer_write_row(rows->writer, found->rank, &row, error);
+    free(ways);
+    return status;
+}
+
 static bool takes(void *context, const tn_found_one *found)
 {
     tn_found_rows *rows = context;
     tn_error error;
-    tn_status status = found->house
-                           ? write_house(rows, found, &error)
-                           : tn_plan_writer_write(rows->writer, found->rank, found->trays, found->length, &error);
+    tn_status status = (found->house ? write_house : write_plan)(rows, found, &error);
     if (status != TN_OK) {
         tn_job_fail(rows->job, &error);
         return false;

@@ -9,7 +9,7 @@
 typedef struct rank_settings {
     tn_settings common;
     tn_plan_settings plans;
-    bool of_all, json;
+    bool of_all, ways, json;
 } rank_settings;
 
 static void write_text(const tn_reply *answer, FILE *out)
@@ -22,6 +22,10 @@ static void write_text(const tn_reply *answer, FILE *out)
         fputc(':', out);
         mpz_out_str(out, 10, house->variant);
     }
+    if (plan && plan->has_ways) {
+        fputc('\t', out);
+        mpz_out_str(out, 10, plan->ways);
+    }
     fputc('\n', out);
 }
 
@@ -31,7 +35,8 @@ static void rank(tn_job *job, const rank_settings *settings, const char *text)
     const tn_rank_request request = {.subject = tn_job_asked(&settings->plans),
                                      .plan = house ? NULL : text,
                                      .house = house ? text : NULL,
-                                     .of_all = settings->of_all};
+                                     .of_all = settings->of_all,
+                                     .ways = settings->ways};
     tn_reply answer;
     tn_output output;
     if (tn_job_answered(job, tn_ask_rank(&job->session, &request, &answer)) && tn_job_output(job, NULL, &output)) {
@@ -62,6 +67,7 @@ static const tn_option options[] = {
     OPTION_SET,
     OPTION_TRAYS,
     FLAG("of-all", 0, of_all, "of a house: its rank among all houses, #R, in place of #P:V"),
+    FLAG("ways", 0, ways, "of a plan: behind its rank, in how many ways it is derived by what the library generates"),
     FLAG("json", 0, json, "write the number as JSON"),
     OPTION_MAX_LENGTH,
     OPTION_MAX_STATES,

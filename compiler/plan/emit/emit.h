@@ -19,6 +19,7 @@ typedef struct tn_emit {
     uint32_t begin;  /* of its code */
     uint32_t depth, stack_max;
     bool in_circle;      /* the function is one of a circle of rules */
+    bool derives;        /* `generate` is made of it: in how many ways it holds may be asked */
     size_t instructions; /* of the module so far */
 } tn_emit;
 

@@ -17,6 +17,7 @@ uint32_t tn_emit_clause(tn_emit *emit, tn_checked_clause *clause, uint32_t schem
     if (clause->function > 0)
         return clause->function - 1;
     emit->schema = schema;
+    emit->derives = whole;
     if (clause->expr)
         tn_emit_needs(emit, clause->expr, clause->name);
     else
@@ -28,6 +29,7 @@ uint32_t tn_emit_clause(tn_emit *emit, tn_checked_clause *clause, uint32_t schem
         emit_total(emit, clause);
     tn_emit_op(emit, clause->expr ? clause->expr->node.span : clause->span, TN_OP_RETURN, 0, 0);
     clause->function = tn_emit_end(emit, clause->name, TN_FUNCTION_HOLDS) + 1;
+    emit->derives = false;
     return clause->function - 1;
 }
 

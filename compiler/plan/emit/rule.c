@@ -92,6 +92,8 @@ static void emit_implies(tn_emit *emit, const tn_ast_expr *expr, void (*emit_par
     tn_emit_op(emit, expr->node.span, TN_OP_NOT, 0, 0);
     emit_part(emit, (const tn_ast_expr *)expr->parts.last);
     tn_emit_op(emit, expr->node.span, TN_OP_OR, 0, 0);
+    if (emit->derives && emit_part == tn_emit_whole) /* of an `or` that is written, each side is a way */
+        tn_emit_op(emit, expr->node.span, TN_OP_ONCE, 0, 0);
 }
 
 /* No single tray is `a` and not `b`. */
@@ -373,6 +375,7 @@ static void emit_holds(tn_emit *emit, tn_checked_rule *rule)
 /* The rules of a circle take each other's functions before these are there: they have the next numbers, in order. */
 static void emit_rules(tn_emit *emit, tn_checked_rule *const *rules, size_t count)
 {
+    emit->derives = rules[0]->generates;
     for (size_t i = 0; i < count; i++) {
         emit->schema = rules[i]->schema->index;
         tn_emit_needs(emit, rules[i]->ast->body, rules[i]->name);
@@ -388,6 +391,7 @@ static void emit_rules(tn_emit *emit, tn_checked_rule *const *rules, size_t coun
             emit_holds(emit, rules[i]);
             left--;
         }
+    emit->derives = false;
 }
 
 void tn_emit_rules(tn_emit *emit)

@@ -164,16 +164,17 @@ static void term_clear(tn_term *term)
     *term = (tn_term){0};
 }
 
-static tn_status term_read(const tn_module *module, uint32_t function, bool plain, tn_term *term, tn_error *error)
+/* Code that leaves one relation on the stack; `deepest` are on it at most. */
+static tn_status term_read_code(const tn_module *module, uint32_t begin, uint32_t end, uint32_t deepest, bool plain,
+                                tn_term *term, tn_error *error)
 {
-    const tn_function_record *record = &module->FUNCTION_records[function];
-    size_t bytes = record->code_end - record->code_begin;
+    size_t bytes = end - begin;
     *term = (tn_term){0};
     term->nodes = calloc(bytes + 1, sizeof *term->nodes);
-    term->stack = calloc((size_t)record->stack_max + 1, sizeof *term->stack);
+    term->stack = calloc((size_t)deepest + 1, sizeof *term->stack);
     size_t *start = malloc((bytes + 1) * sizeof *start);
     bool ok = term->nodes && term->stack && start;
-    for (uint32_t offset = record->code_begin; ok && offset < record->code_end;) {
+    for (uint32_t offset = begin; ok && offset < end;) {
         tn_instruction code = tn_code_read(module->code, offset);
         if (code.opcode == TN_OP_RETURN)
             break;
@@ -188,6 +189,12 @@ static tn_status term_read(const tn_module *module, uint32_t function, bool plai
         return TN_OK;
     term_clear(term);
     return tn_fail_memory(error);
+}
+
+static tn_status term_read(const tn_module *module, uint32_t function, bool plain, tn_term *term, tn_error *error)
+{
+    const tn_function_record *record = &module->FUNCTION_records[function];
+    return term_read_code(module, record->code_begin, record->code_end, record->stack_max, plain, term, error);
 }
 
 /* ---- lowering instructions */
@@ -235,6 +242,9 @@ static tn_status lower_relation(const tn_lowering *lowering, const tn_node *node
         return tn_relate_tray(marked, classes, first, out, error);
     case TN_OP_SOMEWHERE:
         return tn_marked_somewhere(marked, in[0], out, error);
+    case TN_OP_ONCE:
+        *out = tn_dfa_share(in[0]);
+        return TN_OK;
     case TN_OP_NONEMPTY:
         return tn_dfa_product(in[0], marked->nonempty, TN_DFA_AND, "rule", marked->bounds, out, error);
     case TN_OP_OPTIONAL:
@@ -843,6 +853,14 @@ static tn_status too_much_work(const tn_lowering *lowering, uint32_t function, t
     return TN_LIMIT;
 }
 
+/* Counts the work that was done before; each question has its own. */
+static tn_status begin_work(tn_lowering *lowering, uint32_t function, tn_error *error)
+{
+    lowering->spent += lowering->bounds.work;
+    lowering->bounds.work = 0;
+    return lowering->spent > lowering->bounds.max_work * RULES_WORK ? too_much_work(lowering, function, error) : TN_OK;
+}
+
 static tn_status lower_form(tn_lowering *lowering, uint32_t function, uint32_t form, tn_dfa **out, tn_error *error)
 {
     uint32_t wanted = function * FORM_COUNT + form;
@@ -852,12 +870,10 @@ static tn_status lower_form(tn_lowering *lowering, uint32_t function, uint32_t f
             *error = *lowered->error;
         return lowered->error->status;
     }
-    lowering->spent += lowering->bounds.work;
-    lowering->bounds.work = 0;
-    if (lowering->spent > lowering->bounds.max_work * RULES_WORK)
-        return too_much_work(lowering, function, error);
     tn_key pending = {0};
-    tn_status status = tn_key_push(&pending, wanted) ? TN_OK : tn_fail_memory(error);
+    tn_status status = begin_work(lowering, function, error);
+    if (status == TN_OK && !tn_key_push(&pending, wanted))
+        status = tn_fail_memory(error);
     while (status == TN_OK && pending.size > 0)
         status = lower_pending(lowering, &pending, error);
     free(pending.data);
@@ -922,6 +938,27 @@ tn_status tn_lower_operands(tn_lowering *lowering, uint32_t function, uint32_t o
         return status;
     status = lower_until(lowering, &term, form, offset, parts, count, error);
     term_clear(&term);
+    return status;
+}
+
+tn_status tn_lower_term(tn_lowering *lowering, uint32_t function, uint32_t code_begin, uint32_t code_end, bool reversed,
+                        tn_dfa **out, tn_error *error)
+{
+    uint32_t form = reversed ? FORM_REVERSED : 0;
+    tn_key pending = {0};
+    tn_term term = {0};
+    tn_status status = begin_work(lowering, function, error);
+    if (status == TN_OK)
+        status = term_read_code(lowering->module, code_begin, code_end,
+                                lowering->module->FUNCTION_records[function].stack_max, false, &term, error);
+    if (status == TN_OK)
+        status = push_callees(lowering, &term, form, &pending, error);
+    while (status == TN_OK && pending.size > 0)
+        status = lower_pending(lowering, &pending, error);
+    if (status == TN_OK)
+        status = lower_term(lowering, &term, form, out, error);
+    term_clear(&term);
+    free(pending.data);
     return status;
 }
 

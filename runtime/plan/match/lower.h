@@ -52,6 +52,11 @@ tn_status tn_lower_marked(tn_lowering *lowering, uint32_t function, tn_dfa **out
 tn_status tn_lower_operands(tn_lowering *lowering, uint32_t function, uint32_t offset, tn_dfa **parts, size_t *count,
                             tn_error *error);
 
+/* The automaton (over the classes and the marker, see marked.h) of the relation that a term of the function's code
+ * leaves on the stack; reversed: of the plan turned round. The caller frees *out. */
+tn_status tn_lower_term(tn_lowering *lowering, uint32_t function, uint32_t code_begin, uint32_t code_end, bool reversed,
+                        tn_dfa **out, tn_error *error);
+
 /* What the constructions of this lowering share, and the bounds that they keep. */
 const tn_marked *tn_lowering_marked(const tn_lowering *lowering);
 const tn_classes *tn_lowering_classes(const tn_lowering *lowering);

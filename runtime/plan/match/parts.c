@@ -258,6 +258,10 @@ static tn_status read_instruction(reading *r, uint32_t offset, const tn_instruct
             return foreign(r, offset);
         top(r)->somewhere = true;
         return TN_OK;
+    case TN_OP_ONCE:
+        extend(top(r), offset, code->length);
+        top(r)->once = true;
+        return TN_OK;
     case TN_OP_NONEMPTY:
         return wrap(r, leaf(TN_PART_NEIGHBOUR, offset, code->length), 1);
     case TN_OP_OPTIONAL:

@@ -39,6 +39,7 @@ typedef struct tn_part {
     tn_part_kind kind;
     uint32_t code_begin, code_end; /* of its term */
     uint32_t root;                 /* offset of its last instruction, which has its place in the source */
+    bool once;                     /* derived in one way, whatever it is made of */
     bool somewhere;                /* asked for somewhere in the region, not of the stretch as a whole */
     bool optional;                 /* in a neighbour: may be left out */
     bool beginning, end;           /* neighbour: tied to the plan's */

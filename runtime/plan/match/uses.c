@@ -32,6 +32,7 @@ static tn_relation_use below(tn_opcode opcode, tn_relation_use use)
     case TN_OP_NOT:
         return use == TN_USE_WHOLE ? use : TN_USE_STRETCHES;
     case TN_OP_OR:
+    case TN_OP_ONCE:
         return use;
     case TN_OP_SOMEWHERE:
         return TN_USE_SOMEWHERE == use || use == TN_USE_WHOLE ? TN_USE_SOMEWHERE : TN_USE_STRETCHES;

@@ -188,6 +188,8 @@ TN_RELATION_INLINE void run_operation(tn_plan_vm *vm, const tn_instruction *op, 
     case TN_OP_SOMEWHERE:
         tn_relation_somewhere(top, trays, words);
         break;
+    case TN_OP_ONCE:
+        break;
     case TN_OP_NONEMPTY:
         tn_relation_nonempty(top, trays, words);
         break;

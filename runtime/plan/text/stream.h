@@ -140,7 +140,9 @@ typedef struct tn_plan_metadata {
  */
 #define TN_ROW_TEXTS_MAX 4
 typedef struct tn_row_columns {
-    const char *table; /* of a database, in place of `plans` */
+    const char *what;  /* the rows, in messages */
+    const char *table; /* of a database */
+    bool before;       /* in files of lines the last text stands before the plan line, a tab between them */
     const char *names[TN_ROW_TEXTS_MAX];
     size_t count;
 } tn_row_columns;

@@ -224,7 +224,7 @@ static tn_status open_writer(tn_plan_writer *writer, const char *path, const tn_
     }
     if (writer->rows && (writer->columns || writer->format == TN_FORMAT_BIN || writer->format == TN_FORMAT_PARQUET)) {
         tn_fail(error, TN_INVALID, E_USAGE, "%s are not written packed, in Parquet, or tray by tray",
-                writer->rows->table);
+                writer->rows->what);
         tn_error_help(error, "--format lines, json, csv or sqlite, without --columns");
         return TN_INVALID;
     }
@@ -319,9 +319,12 @@ static bool append_json(tn_plan_writer *writer, const char *rank, const tn_plan_
 static bool append_line(tn_plan_writer *writer, const tn_plan_row *row)
 {
     size_t texts = tn_writer_texts(writer);
-    return (texts ? append_text(&writer->text, row->texts[texts - 1])
-                  : tn_writer_line(writer, row->trays, row->length, &writer->text)) &&
-           append_text(&writer->text, "\n");
+    bool before = texts && writer->rows->before, ok = true;
+    if (texts)
+        ok = append_text(&writer->text, row->texts[texts - 1]) && (!before || append_text(&writer->text, "\t"));
+    if (ok && (!texts || before))
+        ok = tn_writer_line(writer, row->trays, row->length, &writer->text);
+    return ok && append_text(&writer->text, "\n");
 }
 
 static bool append_row(tn_plan_writer *writer, const char *rank, const tn_plan_row *row)

@@ -110,6 +110,10 @@ static void expressions(void **state)
     expect("rule r = repeat(any, 2..)", "TRAY REPEATED RETURN", "CALL SOMEWHERE RETURN");
     expect("rule r = any or neighbour(any, r)", "TRAY TRAY NONEMPTY AGAIN NONEMPTY CHAIN OR RETURN",
            "TRAY SOMEWHERE TRAY NONEMPTY CALL NONEMPTY CHAIN SOMEWHERE OR RETURN");
+    expect("rule r = any implies any", "TRAY SOMEWHERE NOT TRAY OR RETURN",
+           "TRAY SOMEWHERE NOT TRAY SOMEWHERE OR RETURN");
+    expect("rule r = any implies any\nlibrary l { trays 1..2 generate r or any }",
+           "TRAY SOMEWHERE NOT TRAY OR ONCE RETURN", "TRAY SOMEWHERE NOT TRAY SOMEWHERE OR RETURN");
     expect("rule r = distance(from tray(4'), to any, by quantity(any, n > 2))",
            "TRAY TRAY TRAY QUANTITY DISTANCE RETURN", "CALL SOMEWHERE RETURN");
     expect("rule r = symmetric neighbour(beginning, tray(4'))", "CALL MIRROR OR RETURN", "CALL SOMEWHERE RETURN");

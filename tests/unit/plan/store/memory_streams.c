@@ -101,7 +101,8 @@ static tn_status write_plans(const context *c, tn_error *error)
 /* Rows that are houses: with texts beside the plan, and members of JSON. */
 static tn_status write_rows(const context *c, tn_error *error)
 {
-    static const tn_row_columns columns = {"houses", {"plan_rank", "variant", "house"}, 3};
+    static const tn_row_columns columns = {
+        .what = "houses", .table = "houses", .names = {"plan_rank", "variant", "house"}, .count = 3};
     tn_plan_writer *writer = NULL;
     tn_writer_options options = {.format = c->format,
                                  .rows = &columns,
