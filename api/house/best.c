@@ -81,7 +81,7 @@ static tn_status find_houses(search *s, const tn_plan *on, tn_error *error)
     mpz_init(count);
     for (size_t i = 0; status == TN_OK && s->made->count < s->wanted && i < tn_houses_points(s->houses); i++) {
         tn_houses_point(s->houses, i, s->values, count);
-        status = tn_houses_point_each(s->houses, i, add_best, s, error);
+        status = tn_houses_point_each(s->houses, i, TN_ALIKE_NOTHING, add_best, s, error);
     }
     mpz_clear(count);
     return status;

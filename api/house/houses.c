@@ -106,7 +106,7 @@ tartan_status tartan_house_sample(tartan_house_library *library, const tartan_on
     tartan_houses *made = tn_api_houses_new(library);
     tn_status drawn = made ? tn_api_houses_on(library, plan, &of, &found) : tn_fail_memory(&found);
     if (drawn == TN_OK)
-        drawn = tn_numbered_sample(&library->numbered, of, count, seed, add_drawn, made, &found);
+        drawn = tn_numbered_sample(&library->numbered, of, count, seed, false, add_drawn, made, &found);
     return tn_api_houses_give(made, tn_api_houses_end(library, drawn, &found, error), houses);
 }
 

@@ -177,7 +177,7 @@ tn_status tn_edit_sample(tn_house_edit *edit, int which, tn_numbered *from, cons
         status = tn_edit_example(edit, which, &first, error);
     tn_house_clear(&first);
     return status == TN_OK
-               ? tn_numbered_sample(from, NULL, options->shown, options->seed, keep_example, &samples, error)
+               ? tn_numbered_sample(from, NULL, options->shown, options->seed, false, keep_example, &samples, error)
                : status;
 }
 

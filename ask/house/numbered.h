@@ -178,9 +178,11 @@ typedef tn_status tn_sampled_house(void *context, tn_house *house, const mpz_t r
                                    tn_error *error);
 
 /* Calls `use` with `wanted` different houses of the library, or of those on one plan (NULL: all plans), each drawn with
- * the same probability, in the order of their ranks; with all if there are fewer. */
-tn_status tn_numbered_sample(tn_numbered *n, const tn_plan *plan, size_t wanted, uint64_t seed, tn_sampled_house *use,
-                             void *context, tn_error *error);
+ * the same probability, in the order of their ranks; with all if there are fewer. Diverse ones are chosen among
+ * twenty times as many that are drawn so, TN_DIVERSE_DRAWS at least (ask/house/diverse.h). */
+#define TN_DIVERSE_DRAWS 200u
+tn_status tn_numbered_sample(tn_numbered *n, const tn_plan *plan, size_t wanted, uint64_t seed, bool diverse,
+                             tn_sampled_house *use, void *context, tn_error *error);
 
 /* Opens the library and calls `use` with that house. What is wrong, also what `use` returns, is said. */
 typedef tn_status tn_house_use(void *context, const tn_house *house, tn_error *error);

@@ -1,7 +1,10 @@
 /* Draws houses of a library at random: ranks, and then the houses of these, plan by plan. */
 #include <stdlib.h>
+#include <string.h>
 
+#include "ask/house/diverse.h"
 #include "ask/house/numbered.h"
+#include "runtime/base/random.h"
 
 /* The ranks that are drawn, ascending, and how far the plans have come. */
 typedef struct tn_house_sample {
@@ -146,8 +149,8 @@ static tn_status sample_one_by_one(tn_numbered *n, const tn_plan *plan, size_t w
     return status;
 }
 
-tn_status tn_numbered_sample(tn_numbered *n, const tn_plan *plan, size_t wanted, uint64_t seed, tn_sampled_house *use,
-                             void *context, tn_error *error)
+static tn_status sample(tn_numbered *n, const tn_plan *plan, size_t wanted, uint64_t seed, tn_sampled_house *use,
+                        void *context, tn_error *error)
 {
     tn_houses *houses;
     tn_status status = count_together(n, plan, &houses, error);
@@ -159,4 +162,94 @@ tn_status tn_numbered_sample(tn_numbered *n, const tn_plan *plan, size_t wanted,
     if (houses != n->all)
         tn_houses_free(houses);
     return status;
+}
+
+/* ---- those that differ */
+
+typedef struct drawn_house {
+    char *line;
+    mpz_t rank, variant;
+} drawn_house;
+
+/* The houses that are drawn, among which some are chosen; owned. */
+typedef struct drawn_houses {
+    drawn_house *items;
+    size_t count;
+} drawn_houses;
+
+static tn_status keep(void *context, tn_house *house, const mpz_t rank, const mpz_t variant, tn_error *error)
+{
+    drawn_houses *d = context;
+    tn_buffer line = {0};
+    tn_status status = tn_house_write(house, &line, error);
+    if (status != TN_OK) {
+        free(line.data);
+        return status;
+    }
+    drawn_house *to = &d->items[d->count++];
+    to->line = line.data;
+    mpz_init_set(to->rank, rank);
+    mpz_init_set(to->variant, variant);
+    return TN_OK;
+}
+
+static tn_status use_drawn(tn_numbered *n, const drawn_house *drawn, tn_sampled_house *use, void *context,
+                           tn_error *error)
+{
+    tn_house house = {0};
+    tn_status status = tn_house_read(&n->form, drawn->line, strlen(drawn->line), TN_HOUSE_TRAYS_DEFAULT, &house, error);
+    if (status == TN_OK)
+        status = use(context, &house, drawn->rank, drawn->variant, error);
+    tn_house_clear(&house);
+    return status;
+}
+
+static tn_status choose(tn_numbered *n, const drawn_houses *d, size_t wanted, uint64_t seed, tn_sampled_house *use,
+                        void *context, tn_error *error)
+{
+    const char **lines = malloc((d->count + 1) * sizeof *lines);
+    bool *chosen = calloc(d->count + 1, sizeof *chosen);
+    tn_status status = lines && chosen ? TN_OK : tn_fail_memory(error);
+    for (size_t i = 0; lines && i < d->count; i++)
+        lines[i] = d->items[i].line;
+    if (status == TN_OK && d->count > 0)
+        status = tn_lines_choose(lines, d->count, (size_t)(tn_random64(seed, 1, 0) % d->count), wanted, chosen, error);
+    for (size_t i = 0; status == TN_OK && i < d->count; i++)
+        if (chosen[i])
+            status = use_drawn(n, &d->items[i], use, context, error);
+    free(chosen);
+    free(lines);
+    return status;
+}
+
+static tn_status sample_diverse(tn_numbered *n, const tn_plan *plan, size_t wanted, uint64_t seed,
+                                tn_sampled_house *use, void *context, tn_error *error)
+{
+    enum { TIMES = 20 };
+    size_t draws = wanted * TIMES > TN_DIVERSE_DRAWS ? wanted * TIMES : TN_DIVERSE_DRAWS;
+    drawn_houses drawn = {.items = calloc(draws + 1, sizeof *drawn.items)};
+    tn_status status = drawn.items ? sample(n, plan, draws, seed, keep, &drawn, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = choose(n, &drawn, wanted, seed, use, context, error);
+    for (size_t i = 0; i < drawn.count; i++) {
+        free(drawn.items[i].line);
+        mpz_clears(drawn.items[i].rank, drawn.items[i].variant, NULL);
+    }
+    free(drawn.items);
+    return status;
+}
+
+static tn_status too_many(size_t wanted, tn_error *error)
+{
+    return tn_fail(error, TN_INVALID, E_USAGE, "--diverse chooses at most %u houses, not %zu", TN_DIVERSE_HOUSES_MAX,
+                   wanted);
+}
+
+tn_status tn_numbered_sample(tn_numbered *n, const tn_plan *plan, size_t wanted, uint64_t seed, bool diverse,
+                             tn_sampled_house *use, void *context, tn_error *error)
+{
+    if (!diverse)
+        return sample(n, plan, wanted, seed, use, context, error);
+    return wanted > TN_DIVERSE_HOUSES_MAX ? too_many(wanted, error)
+                                          : sample_diverse(n, plan, wanted, seed, use, context, error);
 }

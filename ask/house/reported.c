@@ -73,7 +73,7 @@ static tn_status sample(tn_numbered *n, tn_reported_houses *r, size_t wanted, tn
     r->page.houses = r->houses;
     if (!r->houses)
         return tn_fail_memory(error);
-    return r->page.lengths ? tn_numbered_sample(n, NULL, wanted, r->page.seed, collect, r, error) : TN_OK;
+    return r->page.lengths ? tn_numbered_sample(n, NULL, wanted, r->page.seed, false, collect, r, error) : TN_OK;
 }
 
 static void clear(const tn_numbered *n, tn_reported_houses *r)

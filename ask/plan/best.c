@@ -1,6 +1,7 @@
 /* best, pareto: the best plans, or houses, by measures in their order, and the best trade-offs of two or three. */
 #include "ask/plan/best.h"
 
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -209,7 +210,12 @@ static tn_status best_plans(tn_session *session, const tn_best_request *request,
 tn_status tn_ask_best(tn_session *session, const tn_best_request *request, tn_reply *answer)
 {
     *answer = (tn_reply){0};
-    if (!request->plan && !tn_session_of_houses(session, &request->subject))
+    bool houses = request->plan || tn_session_of_houses(session, &request->subject);
+    if (!houses && request->diverse)
+        return tn_session_refuse(session,
+                                 "name a library of houses with --library; `tartan sample --diverse` draws plans",
+                                 "--diverse is about the best houses, and plans are asked for");
+    if (!houses)
         return best_plans(session, request, answer);
     return request->mirror ? tn_session_refuse(session, NULL, "--mirror is about plans, not about houses")
                            : find_best_houses(session, request, answer);
@@ -239,37 +245,51 @@ static tn_status find_measures(tn_houses_search *s)
     return TN_OK;
 }
 
-static tn_status find_values(tn_houses_search *s, const tn_house_asked *asked)
+/* The values of so many houses. */
+static tn_status find_values(tn_houses_search *s, tn_houses_aim aim, uint64_t wanted, tn_houses **houses,
+                             tn_error *error)
 {
     tn_session *session = s->n.session;
-    tn_houses_what what = {
-        .measures = s->found.count ? &s->measures : NULL, .aim = asked->aim, .wanted = asked->wanted};
-    tn_error error;
-    if (asked->plan) {
+    tn_houses_what what = {.measures = s->found.count ? &s->measures : NULL, .aim = aim, .wanted = wanted};
+    if (s->plan.trays) {
         what.only = s->plan.trays;
         what.length = (uint32_t)s->plan.length;
     }
     tn_session_begins(session, "looking for the best");
-    tn_status status = tn_houses_of(&s->n.form, s->n.record, s->n.plans, &what, s->n.max_states, &s->houses, &error);
+    tn_status status = tn_houses_of(&s->n.form, s->n.record, s->n.plans, &what, s->n.max_states, houses, error);
     tn_session_ends(session);
-    return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
+    return status;
+}
+
+static tn_status refuse_many(tn_session *session, uint64_t wanted)
+{
+    char text[80];
+    snprintf(text, sizeof text, "%" PRIu64, wanted);
+    return tn_session_refuse(session, NULL, "--diverse chooses at most %u houses, not %s", TN_DIVERSE_HOUSES_MAX, text);
 }
 
 tn_status tn_houses_search_begin(tn_houses_search *s, tn_session *session, const tn_house_asked *asked)
 {
-    *s = (tn_houses_search){.wanted = asked->wanted};
+    tn_error error;
+    *s = (tn_houses_search){.wanted = asked->wanted, .diverse = asked->diverse, .reached = asked->wanted};
     mpz_init(s->count);
+    if (asked->diverse && asked->wanted > TN_DIVERSE_HOUSES_MAX)
+        return refuse_many(session, asked->wanted);
     tn_status status = wishes_take(session, asked->by, asked->by_count, asked->by_least, &s->found);
     if (status == TN_OK)
         status = tn_numbered_open_on(&s->n, session, asked->subject, asked->plan, &s->plan);
     if (status == TN_OK)
         status = find_measures(s);
-    return status == TN_OK ? find_values(s, asked) : status;
+    if (status != TN_OK)
+        return status;
+    status = find_values(s, asked->aim, asked->wanted, &s->houses, &error);
+    return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
 }
 
 void tn_houses_search_end(tn_houses_search *s)
 {
     tn_houses_free(s->houses);
+    tn_lines_taken_clear(&s->taken);
     for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
         tn_house_weights_free(s->weights[k]);
     free(s->plan.trays);
@@ -297,9 +317,10 @@ void tn_houses_search_value(const tn_houses_search *s, uint32_t k, mpq_t value)
 
 /* ---- houses of the values */
 
-/* Whoever gets the houses that were found gets them judged. */
+/* Whoever gets the houses that were found gets them judged; diverse ones only if they differ so from those before. */
 typedef struct judged {
-    tn_numbered *n;
+    tn_houses_search *search;
+    tn_house_alike alike;
     tn_house_each *each;
     void *context;
 } judged;
@@ -307,25 +328,92 @@ typedef struct judged {
 static tn_status judge_house(void *context, const tn_house *house, bool *stop, tn_error *error)
 {
     judged *j = context;
-    tn_status status = tn_numbered_judge(j->n, house, error);
-    return status == TN_OK ? j->each(j->context, house, stop, error) : status;
+    bool differs = true;
+    tn_status status = TN_OK;
+    if (j->search->diverse)
+        status = tn_lines_take(&j->search->taken, house, j->alike, &differs, error);
+    if (status == TN_OK && differs)
+        status = tn_numbered_judge(&j->search->n, house, error);
+    return status == TN_OK && differs ? j->each(j->context, house, stop, error) : status;
 }
 
 /* The same of one point. */
-static tn_status houses_search_of_point(tn_houses_search *s, size_t point, tn_house_each *each, void *context,
-                                        tn_error *error)
+static tn_status houses_search_of_point(tn_houses_search *s, size_t point, tn_house_alike alike, tn_house_each *each,
+                                        void *context, tn_error *error)
 {
     tn_houses_point(s->houses, point, s->values, s->count);
-    judged j = {.n = &s->n, .each = each, .context = context};
-    return tn_houses_point_each(s->houses, point, judge_house, &j, error);
+    judged j = {.search = s, .alike = alike, .each = each, .context = context};
+    return tn_houses_point_each(s->houses, point, alike, judge_house, &j, error);
+}
+
+static tn_status each_of_points(tn_houses_search *s, tn_house_alike alike, tn_house_each *each, void *context,
+                                tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && s->given < s->wanted && i < tn_houses_points(s->houses); i++)
+        status = houses_search_of_point(s, i, alike, each, context, error);
+    return status;
+}
+
+/* ---- diverse ones */
+
+/* May there be other plans among houses whose values are not known yet? */
+static bool may_have_more(tn_houses_search *s)
+{
+    mpz_t known, plans;
+    mpz_inits(known, plans, NULL);
+    for (size_t i = 0; i < tn_houses_points(s->houses); i++) {
+        tn_houses_point(s->houses, i, s->values, s->count);
+        mpz_add(known, known, s->count);
+    }
+    tn_library_kept(s->n.plans, TN_ALL_LENGTHS, plans);
+    bool more = mpz_cmp_ui(known, s->reached) >= 0 && mpz_cmp_ui(plans, s->taken.count) > 0 && !s->plan.trays;
+    mpz_clears(known, plans, NULL);
+    return more;
+}
+
+/* Finds the values of a thousand times as many houses. *more: there was none of the limits in the way. */
+static tn_status reach_further(tn_houses_search *s, bool *more, tn_error *error)
+{
+    enum { FURTHER = 1000 };
+    tn_houses *houses = NULL;
+    *more = s->reached <= INT64_MAX / FURTHER;
+    if (!*more)
+        return TN_OK;
+    tn_status status = find_values(s, TN_HOUSES_LEAST, s->reached * FURTHER, &houses, error);
+    *more = status == TN_OK;
+    if (status == TN_LIMIT) {
+        tn_session_note(s->n.session,
+                        "only the best %" PRIu64 " houses are looked at for other plans: the values of more of them "
+                        "are too many",
+                        s->reached);
+        return TN_OK;
+    }
+    if (status != TN_OK)
+        return status;
+    tn_houses_free(s->houses);
+    s->houses = houses;
+    s->reached *= FURTHER;
+    return TN_OK;
+}
+
+static tn_status each_diverse(tn_houses_search *s, tn_house_each *each, void *context, tn_error *error)
+{
+    tn_status status = each_of_points(s, TN_ALIKE_PLAN, each, context, error);
+    for (bool more = true; status == TN_OK && more && s->given < s->wanted && may_have_more(s);) {
+        status = reach_further(s, &more, error);
+        if (status == TN_OK && more)
+            status = each_of_points(s, TN_ALIKE_PLAN, each, context, error);
+    }
+    for (int alike = TN_ALIKE_SECTION; status == TN_OK && alike <= TN_ALIKE_NOTHING; alike++)
+        status = each_of_points(s, (tn_house_alike)alike, each, context, error);
+    return status;
 }
 
 tn_status tn_houses_search_each(tn_houses_search *s, tn_house_each *each, void *context, tn_error *error)
 {
-    tn_status status = TN_OK;
-    for (size_t i = 0; status == TN_OK && s->given < s->wanted && i < tn_houses_points(s->houses); i++)
-        status = houses_search_of_point(s, i, each, context, error);
-    return status;
+    return s->diverse ? each_diverse(s, each, context, error)
+                      : each_of_points(s, TN_ALIKE_NOTHING, each, context, error);
 }
 
 /* ---- asked */
@@ -371,6 +459,7 @@ static tn_status find_best_houses(tn_session *session, const tn_best_request *re
     const tn_house_asked asked = {.subject = &request->subject,
                                   .plan = request->plan,
                                   .wanted = request->has_count ? request->count : TN_BEST_DEFAULT,
+                                  .diverse = request->diverse,
                                   .aim = TN_HOUSES_LEAST,
                                   .by = request->by.items,
                                   .by_count = request->by.count,
@@ -485,7 +574,7 @@ static tn_status take_line(void *context, const tn_house *house, bool *stop, tn_
 static tn_status set_house(tn_houses_search *search, size_t i, tn_front_point *point, tn_error *error)
 {
     mpq_t values[TN_WEIGHED_MAX];
-    tn_status status = houses_search_of_point(search, i, take_line, point, error);
+    tn_status status = houses_search_of_point(search, i, TN_ALIKE_NOTHING, take_line, point, error);
     if (status != TN_OK)
         return status;
     wishes_room(values);

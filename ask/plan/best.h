@@ -2,6 +2,7 @@
 #ifndef TARTAN_ASK_PLAN_BEST_H
 #define TARTAN_ASK_PLAN_BEST_H
 
+#include "ask/house/diverse.h"
 #include "ask/house/numbered.h"
 #include "ask/plan/found.h"
 #include "ask/session/spelled.h"
@@ -59,6 +60,9 @@ typedef struct tn_houses_search {
     int64_t values[TN_WEIGHED_MAX]; /* of the point at hand */
     mpz_t count;                    /* houses there */
     uint64_t given, wanted;         /* houses so far, and in all */
+    bool diverse;                   /* they differ as people see it */
+    tn_lines_taken taken;           /* then: those given */
+    uint64_t reached;               /* and: of so many houses the values are known, at least */
 } tn_houses_search;
 
 /* What is searched: the library, one plan of it or NULL, how many of the best are wanted, and by which measures. */
@@ -66,6 +70,7 @@ typedef struct tn_house_asked {
     const tn_library_asked *subject;
     const char *plan;
     uint64_t wanted;
+    bool diverse; /* houses that differ as people see it (ask/house/diverse.h), the best of those */
     tn_houses_aim aim;
     const tn_wish *by;
     size_t by_count;
@@ -80,7 +85,8 @@ void tn_houses_search_end(tn_houses_search *search);
 void tn_houses_search_value(const tn_houses_search *search, uint32_t k, mpq_t value);
 
 /* Calls `each` with the best houses, by value and then by rank, until it stops; of a point with those that it has. It
- * is `each` who counts them in search->given. */
+ * is `each` who counts them in search->given. Diverse ones: the best on each plan; if that is not enough, those whose
+ * section differs from that of each before on their plan; then by functions, faces and tiles. */
 tn_status tn_houses_search_each(tn_houses_search *search, tn_house_each *each, void *context, tn_error *error);
 
 /* A choice's place in found.counts and found.best. */

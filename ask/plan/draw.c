@@ -590,7 +590,8 @@ static tn_status draw_collected(page *p, tn_numbered *n)
     tn_status status = c->items ? TN_OK : tn_fail_memory(&error);
     if (status == TN_OK)
         status = c->search ? collect_all_best(c, &error)
-                           : tn_numbered_sample(n, NULL, p->wanted, p->request->seed, collect_drawn, c, &error);
+                           : tn_numbered_sample(n, NULL, p->wanted, p->request->seed, p->request->diverse,
+                                                collect_drawn, c, &error);
     if (status != TN_OK)
         status = tn_session_fail(p->session, &error);
     else if (c->count > 0)
@@ -645,6 +646,7 @@ static tn_status draw_best(page *p)
     const tn_house_asked asked = {.subject = &r->subject,
                                   .plan = r->plan,
                                   .wanted = r->front ? UINT64_MAX : p->wanted,
+                                  .diverse = r->diverse && !r->front,
                                   .aim = r->front ? TN_HOUSES_FRONT : TN_HOUSES_LEAST,
                                   .by = r->by.items,
                                   .by_count = r->by.count,
@@ -681,7 +683,6 @@ static tn_status check(tn_session *session, const tn_draw_request *r)
          "--sample N draws N houses of the library, and `tartan house FILE HOUSE -o NAME.svg` one"},
         {r->has_length, "--length", of_trays},
         {r->has_per_length, "--per-length", of_trays},
-        {r->diverse, "--diverse", "leave it out: each house of the library is drawn as likely as each"},
         {r->paper != NULL, "--paper", one_scale},
         {r->has_scale, "--scale", one_scale},
     };
@@ -751,7 +752,7 @@ static tn_status check_plans(tn_session *session, const tn_draw_request *r)
         return tn_session_refuse(session, NULL, "draw either rules or plans, not both");
     if (is_sampled(r) && r->from)
         return tn_session_refuse(session, NULL, "draw either a file of plans or a --sample, not both");
-    if (!is_sampled(r) && (r->has_seed || r->has_length || r->diverse))
+    if (!is_sampled(r) && (r->has_seed || r->has_length || (r->diverse && !(r->has_best && of_houses(session, r)))))
         return tn_session_refuse(session, NULL,
                                  "--seed, --length and --diverse say what is sampled: give --sample N too");
     if (!is_sampled(r) && !r->has_best && !r->front && r->subject.has_trays)

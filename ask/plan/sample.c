@@ -229,7 +229,8 @@ static tn_status give_houses(tn_numbered *n, const tn_sample_request *request, c
     giving g = {.finds = &finds};
     tn_status status = tn_finds_begin(&finds, &error);
     if (status == TN_OK && !finds.ended)
-        status = tn_numbered_sample(n, plan, (size_t)request->count, request->seed, give_house, &g, &error);
+        status = tn_numbered_sample(n, plan, (size_t)request->count, request->seed, request->diverse, give_house, &g,
+                                    &error);
     if (status == TN_OK && !finds.ended)
         tn_numbered_say_few(n, plan != NULL, g.given, request->count);
     return tn_finds_end(&finds, status, &error);
@@ -261,18 +262,15 @@ static tn_status sample_houses(tn_session *session, const tn_sample_request *req
 
 /* ---- asked */
 
-/* What is about the length of plans, or makes them differ, is for plans alone. */
+/* What is about the length of plans is for plans alone. */
 static tn_status refuse_for_houses(tn_session *session, const tn_sample_request *request)
 {
-    if (request->diverse)
-        return tn_session_refuse(session, "leave it out: each house of the library is drawn as likely as each",
-                                 "for a library of houses, `tartan sample` does not take --diverse");
     return tn_session_refuse(
         session, "write it as a requirement, such as --where \"quantity(any, n = 3)\"; --plan takes one plan",
         "for a library of houses, `tartan sample` does not take %s", request->has_length ? "--length" : "--per-length");
 }
 
-static tn_status check(tn_session *session, const tn_sample_request *request)
+static tn_status check(tn_session *session, const tn_sample_request *request, bool houses)
 {
     if (request->has_count == request->has_per_length)
         return tn_session_refuse(session, NULL, "say how many plans: either N after the file, or --per-length N");
@@ -281,7 +279,7 @@ static tn_status check(tn_session *session, const tn_sample_request *request)
     if (request->diverse && request->has_per_length)
         return tn_session_refuse(
             session, NULL, "--diverse and --per-length exclude each other: give --length for plans of one length");
-    if (request->diverse && request->count > TN_DIVERSE_MAX)
+    if (request->diverse && !houses && request->count > TN_DIVERSE_MAX)
         return tn_session_refuse(session, NULL, "--diverse chooses at most %u plans, not %" PRIu64, TN_DIVERSE_MAX,
                                  request->count);
     return TN_OK;
@@ -296,9 +294,9 @@ tn_status tn_ask_sample(tn_session *session, const tn_sample_request *request, t
         return tn_session_refuse(session, NULL, "`generated` is asked of plans, and this is a library of houses");
     if (houses && r->ways)
         return tn_ways_refuse_houses(session);
-    if (houses && (r->has_length || r->has_per_length || r->diverse))
+    if (houses && (r->has_length || r->has_per_length))
         return refuse_for_houses(session, r);
-    tn_status status = check(session, r);
+    tn_status status = check(session, r, houses);
     if (status != TN_OK)
         return status;
     return houses ? sample_houses(session, r, answer) : sample_plans(session, r, answer);

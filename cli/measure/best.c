@@ -16,7 +16,7 @@ typedef struct best_settings {
     tn_plan_settings plans;
     tn_written_settings written;
     tn_option_list wanted; /* wishes */
-    bool mirror;
+    bool mirror, diverse;
     const char *plan;
 } best_settings;
 
@@ -151,6 +151,7 @@ static void draw(tn_job *job, const tn_best_request *best)
                                      .best = best->count,
                                      .by = {best->by.items, best->by.count},
                                      .plan = best->plan,
+                                     .diverse = best->diverse,
                                      .mirror = best->mirror};
     tn_job_draw(job, &request, output);
 }
@@ -211,6 +212,7 @@ static void find_best(tn_job *job, uint64_t wanted)
                                      .has_count = true,
                                      .count = wanted,
                                      .plan = settings->plan,
+                                     .diverse = settings->diverse,
                                      .mirror = settings->mirror};
     (houses ? find_houses : find_plans)(job, &request);
 }
@@ -239,6 +241,7 @@ static const tn_option options[] = {
     WISH("most", wanted, "the plans with the most MEASURE first"),
     WISH("then-least", wanted, "of equal ones those with the least of this measure; may be repeated"),
     WISH("then-most", wanted, "of equal ones those with the most of this measure; may be repeated"),
+    FLAG("diverse", 0, diverse, "of houses: those that differ as people see it, before those that differ in furniture"),
     FLAG("mirror", 0, mirror, "leave out a plan whose mirror image is kept and of lower rank"),
     TEXT("plan", 0, "PLAN", plan, "the best houses on one plan: a plan in any spelling, or # and its rank"),
     OPTION_PLAN_FORMAT,
@@ -252,8 +255,9 @@ static const tn_option options[] = {
 const tn_command tn_command_best = {
     .name = "best",
     .summary = "write the best plans of a library by a measure",
-    .usage = "FILE [N] --least MEASURE\nFILE [N] --most MEASURE [--then-least MEASURE]\nFILE [N] --least MEASURE -o "
-             "SHEET.svg\nFILE [N] [--library PREFERS]\nFILE [N] --library HOUSES [--plan PLAN] --least MEASURE",
+    .usage =
+        "FILE [N] --least MEASURE\nFILE [N] --most MEASURE [--then-least MEASURE]\nFILE [N] --least MEASURE -o "
+        "SHEET.svg\nFILE [N] [--library PREFERS]\nFILE [N] --library HOUSES [--plan PLAN] [--diverse] --least MEASURE",
     .description =
         "Writes the N (10) plans of the library with the least or most of a measure, in order: by the measure, then by "
         "the measures named after it, then by rank. Without a measure, plans of a library that prefers (`prefer` in "
@@ -267,7 +271,10 @@ const tn_command tn_command_best = {
         "with its place and its values.\n\n"
         "With --library HOUSES, or --plan, the best houses are written, as house lines or JSON lines, or drawn, each "
         "with its name #P:V and its values; --least and --most name measures of houses or of plans "
-        "(docs/houses.md).",
+        "(docs/houses.md). With --diverse they are the best houses on N different plans, in order; where there are not "
+        "so many plans with houses, then those whose storeys, roofs or other choices of the section differ from those "
+        "of "
+        "each before on their plan, then their functions, then what is in their faces, then their tiles.",
     .example = "$ tartan best lahave-houses 12 --least cost --then-most daylight",
     .options = options,
     .option_count = OPTION_COUNT(options),

@@ -153,7 +153,7 @@ static const tn_option options[] = {
     NUMBER("seed", 's', "S", seed, 0, 0, "which sample: the same seed gives the same plans (default 0)"),
     NUMBER("length", 0, "L", length, 0, UINT32_MAX - 1, "only plans of L trays"),
     NUMBER("per-length", 0, "N", per_length, 0, SAMPLE_MAX, "N plans of each number of trays, instead of N in all"),
-    FLAG("diverse", 0, diverse, "plans that differ from one another, instead of each as likely as each"),
+    FLAG("diverse", 0, diverse, "plans or houses that differ from one another, instead of each as likely as each"),
     FLAG("uniform", 0, uniform, "each plan as likely as each, also if the library has weights"),
     NUMBER("shards", 0, "M", shards, 1, 0,
            "make a shard set of M shards, the folder that -o names: `tartan shards run` draws the same plans"),
@@ -181,7 +181,11 @@ const tn_command tn_command_sample = {
         "of a library have the greatest number of trays, so nearly all "
         "samples do too; --length and --per-length draw plans of other lengths. --diverse draws one plan; each next "
         "plan is the one of 1,000 fresh draws that is farthest from those before. A changed field counts 1, a tray "
-        "more or less counts as many as it has fields. With --library HOUSES, or --plan, houses are drawn. The same "
+        "more or less counts as many as it has fields. With --library HOUSES, or --plan, houses are drawn; --diverse "
+        "then "
+        "chooses among 20 N houses (200 at least), each next one as far as can be from those before: by their plans, "
+        "then storeys, roofs and other choices, then which functions there are, then where these are, then faces, then "
+        "tiles. The same "
         "file, seed and options give the same plans on every machine. With --shards M and -o SET a shard set is made, "
         "whose workers draw the same plans on any number of machines; see `tartan help shards`.",
     .example = "$ tartan sample lahave-houses 1000 --seed 7 -o sample.sqlite",

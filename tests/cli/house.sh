@@ -230,7 +230,9 @@ fi
 # Houses drawn at random, from all plans and from one; libraries of too many plans.
 golden sample "tartan sample cottage 3 --library cottages --seed 3"
 golden sample_plan "tartan sample cottage 2 --plan '#10' --library cottages"
-golden sample_diverse "tartan sample cottage 2 --library cottages --diverse"
+golden sample_diverse "tartan sample cottage 3 --library cottages --diverse"
+golden sample_diverse_many "tartan sample cottage 600 --library cottages --diverse"
+"$TARTAN" draw cottage --library cottages --sample 3 --diverse -o "$scratch/diverse.svg" && [ -s "$scratch/diverse.svg" ] || fail "houses that differ are not drawn"
 golden sample_no_plan "tartan sample cottage 2 --library cottages --plan '#14'"
 golden too_many_states "tartan count lahave-complete --library lahave-complete --max-states 20000"
 golden rooms_in_row "tartan count cottage --library cottages --trays 9..10 --where 'neighbour(room(bedroom), room(kitchen))'"
@@ -272,7 +274,6 @@ golden not_a_folder "tartan house cottage '#10:77' -o $scratch/forty.plan/"
 
 # A sheet of small pictures.
 golden sheet_no_sample "tartan draw cottage --library cottages -o $scratch/h.svg"
-golden sheet_diverse "tartan draw cottage --library cottages --sample 3 --diverse -o $scratch/h.svg"
 golden sheet_best "tartan draw cottage --library cottages --best 4 -o $scratch/h.svg"
 golden sheet_mirror "tartan draw cottage --library cottages --best 4 --least floor-area --mirror -o $scratch/h.svg"
 golden sheet_length "tartan draw cottage --library cottages --sample 3 --length 2 -o $scratch/h.svg"

@@ -313,6 +313,7 @@ static tn_status show(tn_choosing *choosing, tn_house *house, tn_error *error)
 {
     tn_status status = choosing->faced(choosing->context, house, choosing->number, &choosing->stop, error);
     choosing->shown = true;
+    choosing->next = choosing->alike < TN_ALIKE_FACES;
     if (!choosing->wanted)
         mpz_set_ui(choosing->number, 0);
     return status;
@@ -357,7 +358,8 @@ static tn_status choose_kinds(tn_facing *f, uint32_t at, tn_error *error)
     mpz_t houses;
     mpz_init(houses);
     stretch->count /= count;
-    for (size_t i = 0; status == TN_OK && !choosing->stop && i < count; i++, stretch->first += stretch->count) {
+    for (size_t i = 0; status == TN_OK && !choosing->stop && !choosing->next && i < count;
+         i++, stretch->first += stretch->count) {
         const tn_house *wanted = choosing->wanted;
         bool is_it =
             wanted ? wanted->faces[at].kind == kinds[i] : i + 1 == count && !choosing->shown && !choosing->typed;
@@ -442,6 +444,7 @@ tn_status tn_path_faces(tn_plan_path *a, tn_choosing *choosing, tn_house *house,
     faces.trays++;
     if (status == TN_OK && fits)
         status = a->length > 0 ? choose_tray(&faces, 0, error) : show(choosing, house, error);
+    choosing->next = choosing->next && choosing->alike < TN_ALIKE_FUNCTIONS;
     for (uint32_t i = 0; i <= a->length; i++) {
         clear_left(&all[i].slices);
         clear_interface(&all[i].right);

@@ -344,7 +344,8 @@ static tn_status choose(tn_coming *c, tn_choosing *choosing, tn_house *house, tn
     const tn_frontier_furnished_list *slices = &c->path->kind.frontier->slices.furnished[house->trays[c->tray]];
     const tn_house *wanted = choosing->wanted;
     tn_status status = TN_OK;
-    for (size_t i = 0, first = 0, end; status == TN_OK && !choosing->stop && first < slices->count; i++, first = end) {
+    for (size_t i = 0, first = 0, end; status == TN_OK && !choosing->stop && !choosing->next && first < slices->count;
+         i++, first = end) {
         const tn_frontier_furnished *group = &slices->items[first];
         mpz_ptr houses = NULL;
         end = end_of(slices, first);

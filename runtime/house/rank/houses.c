@@ -193,7 +193,7 @@ tn_status tn_plan_houses_at(tn_plan_houses *p, const mpz_t variant, tn_house *ho
     mpz_t left;
     mpz_init_set(left, variant);
     furnishing_begin(p, &f);
-    tn_choosing choosing = {.number = left, .faced = take_first, .context = &f};
+    tn_choosing choosing = {.alike = TN_ALIKE_NOTHING, .number = left, .faced = take_first, .context = &f};
     tn_status status = choose_section(p, &choosing, house, error);
     if (status == TN_OK && !f.found)
         status = too_few(variant, left, error);
@@ -211,7 +211,7 @@ tn_status tn_plan_houses_each(tn_plan_houses *p, const mpz_t from, tn_house_each
     furnishing_begin(p, &f);
     f.each = each;
     f.context = context;
-    tn_choosing choosing = {.number = left, .faced = give_all, .context = &f};
+    tn_choosing choosing = {.alike = TN_ALIKE_NOTHING, .number = left, .faced = give_all, .context = &f};
     tn_status status = choose_section(p, &choosing, &house, error);
     tn_house_clear(&house);
     furnishing_end(&f);
@@ -226,7 +226,8 @@ tn_status tn_plan_houses_number(tn_plan_houses *p, const tn_house *house, mpz_t 
     furnishing_begin(p, &f);
     f.wanted = house;
     mpz_set_ui(variant, 0);
-    tn_choosing choosing = {.number = variant, .wanted = house, .faced = find_wanted, .context = &f};
+    tn_choosing choosing = {
+        .alike = TN_ALIKE_NOTHING, .number = variant, .wanted = house, .faced = find_wanted, .context = &f};
     tn_status status = choose_section(p, &choosing, &faced, error);
     if (status == TN_OK && !f.found)
         status = tn_house_not_kept(error);
@@ -322,7 +323,8 @@ tn_status tn_plan_houses_typed(tn_plan_houses *p, const tn_line_asked *asked, ui
     mpz_t none;
     mpz_init(none);
     furnishing_begin(p, &taking.furnishing);
-    tn_choosing choosing = {.number = none, .typed = &typed, .faced = take_typed, .context = &taking};
+    tn_choosing choosing = {
+        .alike = TN_ALIKE_NOTHING, .number = none, .typed = &typed, .faced = take_typed, .context = &taking};
     tn_status status = choose_section(p, &choosing, house, error);
     *found = status == TN_OK && taking.furnishing.found;
     furnishing_end(&taking.furnishing);
@@ -353,7 +355,7 @@ tn_status tn_plan_houses_faced(tn_plan_houses *p, uint64_t most, uint64_t *faced
     tn_house house;
     mpz_t left;
     mpz_init(left);
-    tn_choosing choosing = {.number = left, .faced = count_faced, .context = &c};
+    tn_choosing choosing = {.alike = TN_ALIKE_NOTHING, .number = left, .faced = count_faced, .context = &c};
     tn_status status = choose_section(p, &choosing, &house, error);
     tn_house_clear(&house);
     mpz_clear(left);

@@ -46,6 +46,9 @@ typedef struct tn_choosing {
     tn_path_faced *faced;
     void *context;
     bool shown, stop; /* a house was shown: there is nothing more to pass over; all ends */
+    tn_house_alike
+        alike; /* of houses that are alike so far only the first is shown: PLAN and SECTION are the same here */
+    bool next; /* nothing more is shown until the next that is not alike */
 } tn_choosing;
 
 /* Passes over so many houses, unless the house is among them; is_wanted: the wanted house is, if there is one. */

@@ -31,6 +31,8 @@ typedef struct tn_seeking {
     tn_house section;      /* its shapes only */
     tn_house_rules *rules; /* NULL: the functions say what the value is */
     bool stop;
+    tn_house_alike alike;
+    bool next; /* of this plan nothing more is shown */
     tn_house_each *each;
     void *context;
 } tn_seeking;
@@ -168,8 +170,9 @@ static tn_status give_faced(void *context, tn_house *house, const mpz_t before, 
         tn_furnish_at(s->furnisher, s->tiles);
     for (bool more = status == TN_OK; more && !s->stop;) {
         status = s->each(s->context, house, &s->stop, error);
-        more = status == TN_OK && tn_furnish_next(s->furnisher);
+        more = status == TN_OK && s->alike == TN_ALIKE_NOTHING && tn_furnish_next(s->furnisher);
     }
+    s->next = s->alike == TN_ALIKE_PLAN;
     *stop = s->stop;
     return status;
 }
@@ -180,7 +183,7 @@ static tn_status give_section(tn_seeking *s, tn_plan_path *path, tn_error *error
     tn_house house;
     mpz_t number;
     mpz_init(number);
-    tn_choosing choosing = {.number = number, .faced = give_faced, .context = s};
+    tn_choosing choosing = {.number = number, .alike = s->alike, .faced = give_faced, .context = s};
     tn_status status = tn_house_stand(s->houses->form, s->trays, s->length, s->section.shapes, &house, error);
     if (status == TN_OK && mpz_sgn(tn_path_layer(path, 0)->ahead[0]) > 0)
         status = tn_path_choose(path, &choosing, &house, error);
@@ -195,7 +198,8 @@ static tn_status seek_sections(tn_seeking *s, const tn_leads *marks, tn_error *e
     tn_houses *h = s->houses;
     tn_status status = TN_OK;
     s->section = (tn_house){.form = h->form};
-    for (bool more = true; status == TN_OK && !s->stop && more;
+    s->next = false;
+    for (bool more = true; status == TN_OK && !s->stop && !s->next && more;
          more = tn_form_next_section(h->form, s->section.shapes)) {
         if (!tn_house_section_stands(&s->section))
             continue;
@@ -284,9 +288,11 @@ static tn_status seek_length(tn_seeking *s, tn_error *error)
     return status;
 }
 
-tn_status tn_houses_point_each(tn_houses *h, size_t point, tn_house_each *each, void *context, tn_error *error)
+tn_status tn_houses_point_each(tn_houses *h, size_t point, tn_house_alike alike, tn_house_each *each, void *context,
+                               tn_error *error)
 {
-    tn_seeking s = {.houses = h, .wanted = h->best.items[point].value, .each = each, .context = context};
+    tn_seeking s = {
+        .houses = h, .wanted = h->best.items[point].value, .alike = alike, .each = each, .context = context};
     s.trays = malloc(((size_t)h->high + 1) * sizeof *s.trays);
     s.plans = calloc((size_t)h->high + 1, sizeof *s.plans);
     s.gains = malloc(((size_t)h->high + 1) * sizeof *s.gains);

@@ -64,8 +64,18 @@ tn_status tn_house_ranks_find(tn_house_ranks *ranks, mpz_t rank, tn_tray *trays,
 tn_status tn_house_ranks_plan(tn_house_ranks *ranks, const tn_tray *trays, uint32_t length, tn_plan_houses **plan,
                               tn_error *error);
 
+/* Which houses are shown: all, or of those that are alike so far the first alone. */
+typedef enum tn_house_alike {
+    TN_ALIKE_PLAN,      /* the first on each plan */
+    TN_ALIKE_SECTION,   /* the first of each section of a plan */
+    TN_ALIKE_FUNCTIONS, /* the first with the same functions in these */
+    TN_ALIKE_FACES,     /* the first with the same faces in these */
+    TN_ALIKE_NOTHING    /* all */
+} tn_house_alike;
+
 /* Calls `each` with the houses that have value `point` of these (count/houses.h), in the order of their ranks, until
  * there are no more or *stop. No other house is looked at. The house is borrowed for the call. */
-tn_status tn_houses_point_each(tn_houses *houses, size_t point, tn_house_each *each, void *context, tn_error *error);
+tn_status tn_houses_point_each(tn_houses *houses, size_t point, tn_house_alike alike, tn_house_each *each,
+                               void *context, tn_error *error);
 
 #endif

@@ -16,7 +16,7 @@
 #include "tests/support/share.h"
 #include "tests/support/test_house.h"
 
-enum { HOUSES_MAX = 20000, MEASURES = 2, WANTED = 7, LENGTH_MAX = 3, PLACES = 3 };
+enum { HOUSES_MAX = 20000, MEASURES = 2, WANTED = 7, LENGTH_MAX = 3, PLACES = 3, ALIKE_MOST = 500 };
 
 typedef struct listed {
     mpq_t values[MEASURES]; /* with the sign that makes less better */
@@ -147,6 +147,60 @@ static size_t same_from(const check *c, size_t at)
     return end - at;
 }
 
+/* How much of the line houses have in common that are so alike. */
+static size_t common_part(const char *line, tn_house_alike alike)
+{
+    const char *at = line;
+    for (int part = 0; part <= (int)alike && at; part++) {
+        at = strchr(at, ';');
+        at = at ? at + 1 : NULL;
+    }
+    return at ? (size_t)(at - line) : strlen(line);
+}
+
+/* The first houses of a point of those that are alike, in the order. */
+typedef struct alike_houses {
+    check *c;
+    size_t from, at, end; /* in the order: the point's, and how far they have come */
+    tn_house_alike alike;
+} alike_houses;
+
+/* Is the house the first of those that are as alike? */
+static bool is_first(const check *c, size_t from, size_t at, tn_house_alike alike)
+{
+    const char *line = c->order[at]->line;
+    size_t size = common_part(line, alike);
+    for (size_t i = from; i < at; i++)
+        if (common_part(c->order[i]->line, alike) == size && memcmp(c->order[i]->line, line, size) == 0)
+            return false;
+    return true;
+}
+
+static tn_status expect_unlike(void *context, const tn_house *house, bool *stop, tn_error *error)
+{
+    alike_houses *a = context;
+    char *line = line_of(house);
+    (void)stop;
+    (void)error;
+    while (a->at < a->end && !is_first(a->c, a->from, a->at, a->alike))
+        a->at++;
+    assert_true(a->at < a->end);
+    assert_string_equal(line, a->c->order[a->at++]->line);
+    free(line);
+    return TN_OK;
+}
+
+static void check_alike(check *c, tn_houses *houses, size_t point, size_t from)
+{
+    tn_error error = {0};
+    for (int alike = TN_ALIKE_PLAN; alike <= TN_ALIKE_NOTHING; alike++) {
+        alike_houses a = {c, from, from, from + same_from(c, from), (tn_house_alike)alike};
+        assert_int_equal(tn_houses_point_each(houses, point, a.alike, expect_unlike, &a, &error), TN_OK);
+        while (a.at < a.end)
+            assert_false(is_first(c, from, a.at++, a.alike));
+    }
+}
+
 static void check_least(check *c, tn_houses *houses)
 {
     tn_error error = {0};
@@ -158,9 +212,11 @@ static void check_least(check *c, tn_houses *houses)
         tn_houses_point(houses, i, values, count);
         assert_true(at < c->count && at < WANTED);
         assert_int_equal(mpz_cmp_ui(count, same_from(c, at)), 0);
+        if (same_from(c, at) < ALIKE_MOST)
+            check_alike(c, houses, i, at);
         at += same_from(c, at);
         if (c->given < WANTED)
-            assert_int_equal(tn_houses_point_each(houses, i, expect_next, c, &error), TN_OK);
+            assert_int_equal(tn_houses_point_each(houses, i, TN_ALIKE_NOTHING, expect_next, c, &error), TN_OK);
     }
     assert_int_equal(c->given, c->count < WANTED ? c->count : WANTED);
     mpz_clear(count);
@@ -190,7 +246,8 @@ static void check_front(check *c, tn_houses *houses)
         assert_true(point < tn_houses_points(houses));
         tn_houses_point(houses, point, values, count);
         assert_int_equal(mpz_cmp_ui(count, same_from(c, i)), 0);
-        assert_int_equal(tn_houses_point_each(houses, point, expect_first, &c->order[i]->line, &error), TN_OK);
+        assert_int_equal(
+            tn_houses_point_each(houses, point, TN_ALIKE_NOTHING, expect_first, &c->order[i]->line, &error), TN_OK);
         point++;
     }
     assert_int_equal(point, tn_houses_points(houses));

@@ -156,7 +156,7 @@ static tn_status find_best(tn_houses_aim aim, tn_error *error)
     if (status == TN_OK)
         assert_true(tn_houses_points(houses) > 0);
     if (status == TN_OK)
-        status = tn_houses_point_each(houses, 0, take_one, NULL, error);
+        status = tn_houses_point_each(houses, 0, TN_ALIKE_NOTHING, take_one, NULL, error);
     tn_house_listing_free(variants);
     tn_houses_free(houses);
     return status;
