@@ -12,6 +12,7 @@
 #define TN_CLAUSES_MAX 10000u        /* of one library, with those that it takes over */
 #define TN_TESTS_MAX 10000u          /* test blocks over all files */
 #define TN_FORBIDS_MAX 1000u         /* of one schema */
+#define TN_TRAY_BOXES_MAX 1000u      /* of one `tray(...)` that compares sums */
 #define TN_FORBID_BOXES_MAX 10000u   /* specifiers that they come to */
 #define TN_LITERAL_TRAYS_MAX 4096u   /* of a plan in a test: the engines' default for the longest plan */
 #define TN_INSTRUCTIONS_MAX 1000000u /* of a module: what loading accepts */

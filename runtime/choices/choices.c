@@ -7,7 +7,7 @@
 #include "runtime/automata/numbering.h"
 #include "runtime/base/array.h"
 
-enum { VALUES_MAX = 256, WORD_BITS = 64 };
+enum { VALUES_MAX = TN_CHOICE_VALUES_MAX, WORD_BITS = 64 };
 
 struct tn_choice_diagram {
     uint32_t fields, room;
@@ -59,6 +59,16 @@ void tn_choices_free(tn_choice_diagram *choices)
     free(choices->opposites);
     free(choices->sizes);
     free(choices);
+}
+
+uint32_t tn_choices_fields(const tn_choice_diagram *choices)
+{
+    return choices->fields;
+}
+
+uint32_t tn_choices_values(const tn_choice_diagram *choices, uint32_t field)
+{
+    return choices->counts[field];
 }
 
 bool tn_choices_full(const tn_choice_diagram *choices)

@@ -18,6 +18,7 @@
 typedef uint32_t tn_choice_set;
 enum { TN_CHOICE_NONE = 0, TN_CHOICE_ALL = 1 }; /* no combination, and all of them */
 #define TN_CHOICE_LOST UINT32_MAX
+enum { TN_CHOICE_VALUES_MAX = 256 }; /* of a field */
 
 /* Of a diagram: words of its nodes and pairs that were joined, so at most some 200 MB. */
 #define TN_CHOICES_ROOM (UINT32_C(1) << 23)
@@ -27,6 +28,9 @@ typedef struct tn_choice_diagram tn_choice_diagram;
 /* counts: how many values each field has, at least one. NULL: out of memory. */
 tn_choice_diagram *tn_choices_new(const uint32_t *counts, uint32_t fields, uint32_t room);
 void tn_choices_free(tn_choice_diagram *choices);
+
+uint32_t tn_choices_fields(const tn_choice_diagram *choices);
+uint32_t tn_choices_values(const tn_choice_diagram *choices, uint32_t field);
 
 /* Is it for want of room, and not of memory, that sets were lost? */
 bool tn_choices_full(const tn_choice_diagram *choices);

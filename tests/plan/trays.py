@@ -326,8 +326,30 @@ def laid_out(case, path):
     same("words", re.sub(r"\s+", "", once.stdout), re.sub(r"\s+", "", text))
 
 
+def added():
+    """Six fields of sixteen values, 16,777,216 combinations: those of some sums are counted by how many ways there are to each."""
+    weights, numbers = (1, 1, 2, 1, 3, 1), range(1, 17)
+    for bound, op in ((17, "<="), (16, "="), (140, ">=")):
+        ways = {0: 1}
+        for weight in weights:
+            longer = {}
+            for total, count in ways.items():
+                for number in numbers:
+                    longer[total + weight * number] = longer.get(total + weight * number, 0) + count
+            ways = longer
+        fields = "\n".join(f"  {name} = {' | '.join(f'{n}m' for n in numbers)}" for name in "abcdef")
+        terms = " + ".join(f"{weight} * {name}" for weight, name in zip(weights, "abcdef"))
+        path = os.path.join(FOLDER, "added.plan")
+        with open(path, "w") as out:
+            out.write(f"schema added {{\n{fields}\n  only tray({terms} {op} {bound}m)\n}}\nlibrary one {{ trays 1 }}\n")
+        done = subprocess.run([PROGRAM, "count", path, "--json"], capture_output=True, text=True)
+        same("added up", (done.stderr, json.loads(done.stdout or "{}").get("kept")),
+             ("", str(sum(count for total, count in ways.items() if OPS[op](total, bound)))))
+
+
 def main():
     wrong = divided = 0
+    added()
     for seed in range(FIRST, LAST):
         case = Case(seed)
         divided += bool(case.wrong)

@@ -399,8 +399,8 @@ bool tn_check_tray_set(tn_check *check, tn_checked_schema *schema, const tn_chec
 bool tn_check_limit_set(tn_check *check, tn_checked_schema *schema, const tn_checked_schema *older,
                         const tn_ast_expr *expr, tn_tray_set *set);
 tn_choice_set tn_legal_set(tn_check *check, tn_checked_schema *schema); /* TN_CHOICE_LOST: not known */
-/* The set as specifiers. false: reported, at the span. */
-bool tn_check_boxes(tn_check *check, tn_checked_schema *schema, tn_choice_set set, tn_span span,
+/* The set as specifiers, so many at most. false: reported, at the span. */
+bool tn_check_boxes(tn_check *check, tn_checked_schema *schema, tn_choice_set set, size_t most, tn_span span,
                     tn_checked_trays *trays);
 /* Is a legal tray neither in the set nor not? Then that is reported. */
 bool tn_check_undivided(tn_check *check, tn_checked_schema *schema, tn_tray_set set, tn_span span);

@@ -2,9 +2,8 @@
  * module says of trays it says by specifiers, so sets are written out as such: boxes that share no tray. */
 #include <string.h>
 
+#include "compiler/common/limits.h"
 #include "compiler/plan/check/check.h"
-
-enum { BOXES_MAX = 1000 }; /* of one specifier or limit */
 
 tn_choice_diagram *tn_schema_choices(tn_check *check, tn_checked_schema *schema)
 {
@@ -214,36 +213,39 @@ typedef struct boxing {
 static bool add_box(void *context, const uint64_t *mask)
 {
     boxing *b = context;
-    if (b->trays->count == BOXES_MAX)
-        return false;
     tn_checked_spec *spec = tn_box_spec(b->check, b->schema, mask, b->span);
     if (spec)
         b->trays->boxes[b->trays->count++] = spec;
     return spec != NULL;
 }
 
+typedef struct box_count {
+    size_t count, most;
+} box_count;
+
 static bool count_box(void *context, const uint64_t *mask)
 {
+    box_count *boxes = context;
     (void)mask;
-    return ++*(size_t *)context <= BOXES_MAX;
+    return ++boxes->count <= boxes->most;
 }
 
-bool tn_check_boxes(tn_check *check, tn_checked_schema *schema, tn_choice_set set, tn_span span,
+bool tn_check_boxes(tn_check *check, tn_checked_schema *schema, tn_choice_set set, size_t most, tn_span span,
                     tn_checked_trays *trays)
 {
-    size_t count = 0;
+    box_count boxes = {.most = most};
     *trays = (tn_checked_trays){0};
     if (!is_made(check, schema, set, span))
         return false;
-    bool few = tn_choices_boxes(schema->choices, set, count_box, &count);
-    check->out_of_memory |= !few && count <= BOXES_MAX;
-    if (count > BOXES_MAX) {
+    bool few = tn_choices_boxes(schema->choices, set, count_box, &boxes);
+    check->out_of_memory |= !few && boxes.count <= most;
+    if (boxes.count > most) {
         tn_diagnostic *d =
-            tn_report(check->diagnostics, E_TOO_MANY, span, "this asks for trays of more than %d kinds", BOXES_MAX);
+            tn_report(check->diagnostics, E_TOO_MANY, span, "this asks for trays of more than %zu kinds", most);
         tn_help(check->diagnostics, d, "compare fewer fields at once, or fields of fewer values");
         return false;
     }
-    trays->boxes = TN_NEW_ARRAY(check->arena, tn_checked_spec *, count + 1);
+    trays->boxes = TN_NEW_ARRAY(check->arena, tn_checked_spec *, boxes.count + 1);
     boxing b = {check, schema, span, trays};
     bool whole = trays->boxes && few && tn_choices_boxes(schema->choices, set, add_box, &b);
     check->out_of_memory |= !whole;
@@ -291,7 +293,8 @@ static void set_spec(tn_check *check, tn_ast_expr *tray, tn_tray_set set, tn_ast
     tn_span span = tray->node.span;
     tn_checked_trays trays;
     narrow(schema, tray->spec, &set);
-    if (!tn_check_undivided(check, schema, set, span) || !tn_check_boxes(check, schema, set.yes, span, &trays))
+    if (!tn_check_undivided(check, schema, set, span) ||
+        !tn_check_boxes(check, schema, set.yes, TN_TRAY_BOXES_MAX, span, &trays))
         return;
     leave_out_illegal(check, schema, &trays);
     if (trays.count == 0) {

@@ -3,11 +3,17 @@
  *
  * The words of an item are read here and not by the parser: whether `a < b` compares two numbers or asks for a value is
  * a matter of the schema. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "compiler/plan/check/amount.h"
+#include "runtime/base/array.h"
+#include "runtime/choices/sums.h"
 
-enum { COMBINATIONS_MAX = 1 << 18 }; /* of values that one comparison goes through: a second or less */
+enum {
+    COMBINATIONS_MAX = 1 << 18, /* of values that one comparison goes through: a second or less */
+    NUMBER_MAX = 1 << 10        /* of values that tell a number: then it is a term, whatever its cases */
+};
 
 /* ---- which items these are */
 
@@ -353,7 +359,10 @@ void tn_figure_fields(const tn_checked_schema *schema, const tn_ast_expr *figure
     }
 }
 
-/* ---- the trays that meet a comparison */
+/* ---- the trays that meet a comparison
+ *
+ * The difference of the sides is cut into terms of a few fields each: where `a + 2 * b <= c` is compared, what counts
+ * of `a` and `b` is only what they add up to (runtime/choices/sums.h). */
 
 typedef struct comparison {
     tn_check *check;
@@ -363,84 +372,283 @@ typedef struct comparison {
     tn_operator op;
     tn_span span;
     size_t cases[TN_FIELDS_MAX]; /* of each number of the schema: the case that counts; TN_NONE: not chosen yet */
-    bool depends[TN_FIELDS_MAX];
-    uint8_t values[TN_FIELDS_MAX];
-    mpq_t a, b;
-    bool lost; /* reported */
+    bool lost;                   /* reported */
 } comparison;
 
-static bool holds(tn_operator op, int order)
-{
-    switch (op) {
-    case TN_LESS:
-        return order < 0;
-    case TN_AT_MOST:
-        return order <= 0;
-    case TN_EQUAL:
-        return order == 0;
-    case TN_UNEQUAL:
-        return order != 0;
-    case TN_AT_LEAST:
-        return order >= 0;
-    default:
-        return order > 0;
-    }
-}
+/* ---- its terms */
 
-static tn_tray_set of_values(comparison *c)
-{
-    tn_figure_value left = tn_figure_compute(c->schema, c->left, c->cases, c->values, c->a);
-    tn_figure_value right =
-        left == TN_FIGURE_SAYS ? tn_figure_compute(c->schema, c->right, c->cases, c->values, c->b) : left;
-    if (right == TN_FIGURE_OVER_ZERO)
-        return (tn_tray_set){TN_CHOICE_NONE, TN_CHOICE_NONE};
-    bool met = right == TN_FIGURE_SAYS && holds(c->op, mpq_cmp(c->a, c->b));
-    return (tn_tray_set){met ? TN_CHOICE_ALL : TN_CHOICE_NONE, met ? TN_CHOICE_NONE : TN_CHOICE_ALL};
-}
+typedef struct term {
+    uint32_t fields[TN_FIELDS_MAX];
+    tn_choice_term made;
+    mpq_t *exact; /* its numbers, before all terms have one denominator */
+} term;
 
-/* Goes through the values of the fields that matter, from one field on. */
-static tn_tray_set of_fields(comparison *c, uint32_t from)
-{
-    uint32_t f = from;
-    while (f < c->schema->field_count && !c->depends[f])
-        f++;
-    if (f == c->schema->field_count)
-        return of_values(c);
-    tn_choice_set yes[TN_VALUES_MAX], no[TN_VALUES_MAX];
-    for (uint32_t v = 0; v < c->schema->fields[f].value_count; v++) {
-        c->values[f] = (uint8_t)v;
-        tn_tray_set follow = of_fields(c, f + 1);
-        yes[v] = follow.yes;
-        no[v] = follow.no;
-    }
-    return (tn_tray_set){tn_choices_node(c->choices, f, yes), tn_choices_node(c->choices, f, no)};
-}
+typedef struct terms {
+    comparison *c;
+    term **items;
+    size_t count, capacity, combinations; /* of all of them together */
+    bool longer, no_memory;
+} terms;
 
-static bool is_short(comparison *c)
+static bool next_values(const terms *all, const term *t, uint8_t *values)
 {
-    uint64_t combinations = 1;
-    memset(c->depends, 0, sizeof c->depends);
-    tn_figure_fields(c->schema, c->left, c->cases, c->depends);
-    tn_figure_fields(c->schema, c->right, c->cases, c->depends);
-    for (uint32_t f = 0; f < c->schema->field_count && combinations <= COMBINATIONS_MAX; f++)
-        combinations *= c->depends[f] ? c->schema->fields[f].value_count : 1;
-    if (combinations <= COMBINATIONS_MAX)
-        return true;
-    if (!c->lost) {
-        tn_diagnostic *d = tn_report(c->check->diagnostics, E_TOO_MANY, c->span,
-                                     "this compares more than %d combinations of values", COMBINATIONS_MAX);
-        tn_help(c->check->diagnostics, d, "compare fewer fields at once, or fields of fewer values");
+    for (uint32_t i = t->made.field_count; i-- > 0;) {
+        uint32_t f = t->fields[i];
+        if (++values[f] < all->c->schema->fields[f].value_count)
+            return true;
+        values[f] = 0;
     }
-    c->lost = true;
     return false;
 }
 
-/* A number in it whose case is not chosen yet; NULL: there is none. */
+static bool size_term(terms *all, term *t, const tn_ast_expr *figure)
+{
+    bool depends[TN_FIELDS_MAX] = {0};
+    size_t size = 1;
+    tn_figure_fields(all->c->schema, figure, all->c->cases, depends);
+    for (uint32_t f = 0; f < all->c->schema->field_count; f++) {
+        if (!depends[f])
+            continue;
+        t->fields[t->made.field_count++] = f;
+        size *= all->c->schema->fields[f].value_count;
+        all->longer |= size > COMBINATIONS_MAX - all->combinations;
+        if (all->longer)
+            return false;
+    }
+    t->made.fields = t->fields;
+    t->made.count = size;
+    all->combinations += size;
+    return true;
+}
+
+/* Its numbers are made one by one, so that what is cleared is what was made. */
+static void fill_term(terms *all, term *t, const tn_ast_expr *figure, const mpq_t factor)
+{
+    static const tn_choice_outcome outcomes[] = {[TN_FIGURE_NONE] = TN_CHOICE_SILENT,
+                                                 [TN_FIGURE_OVER_ZERO] = TN_CHOICE_UNDEFINED,
+                                                 [TN_FIGURE_SAYS] = TN_CHOICE_SAYS};
+    uint8_t values[TN_FIELDS_MAX] = {0};
+    for (size_t i = 0; i < t->made.count; i++, next_values(all, t, values)) {
+        mpq_init(t->exact[i]);
+        mpz_init(t->made.values[i]);
+        tn_figure_value value = tn_figure_compute(all->c->schema, figure, all->c->cases, values, t->exact[i]);
+        t->made.outcomes[i] = (uint8_t)outcomes[value];
+        if (value == TN_FIGURE_SAYS)
+            mpq_mul(t->exact[i], t->exact[i], factor);
+        else
+            mpq_set_si(t->exact[i], 0, 1);
+    }
+}
+
+static void clear_term(term *t)
+{
+    for (size_t i = 0; t && t->exact && t->made.values && t->made.outcomes && i < t->made.count; i++) {
+        mpq_clear(t->exact[i]);
+        mpz_clear(t->made.values[i]);
+    }
+    if (t) {
+        free(t->exact);
+        free(t->made.values);
+        free(t->made.outcomes);
+    }
+    free(t);
+}
+
+static void add_term(terms *all, const tn_ast_expr *figure, const mpq_t factor)
+{
+    term *t = all->longer || all->no_memory ? NULL : calloc(1, sizeof *t);
+    bool good = t && size_term(all, t, figure);
+    if (good) {
+        t->exact = malloc(t->made.count * sizeof *t->exact);
+        t->made.values = malloc(t->made.count * sizeof *t->made.values);
+        t->made.outcomes = malloc(t->made.count);
+        good = t->exact && t->made.values && t->made.outcomes &&
+               tn_array_reserve(&all->items, &all->capacity, all->count, 1, sizeof *all->items);
+        if (!good)
+            t->made.count = 0;
+    }
+    all->no_memory |= !good && !all->longer;
+    if (!good) {
+        clear_term(t);
+        return;
+    }
+    fill_term(all, t, figure, factor);
+    all->items[all->count++] = t;
+}
+
+/* What the figure comes to whatever the tray is. false: it depends on the tray, or has no number. */
+static bool is_constant(const terms *all, const tn_ast_expr *figure, mpq_t number)
+{
+    bool depends[TN_FIELDS_MAX] = {0};
+    const uint8_t none[TN_FIELDS_MAX] = {0};
+    tn_figure_fields(all->c->schema, figure, all->c->cases, depends);
+    for (uint32_t f = 0; f < all->c->schema->field_count; f++)
+        if (depends[f])
+            return false;
+    return tn_figure_compute(all->c->schema, figure, all->c->cases, none, number) == TN_FIGURE_SAYS;
+}
+
+static void add_terms(terms *all, const tn_ast_expr *figure, const mpq_t factor);
+
+/* A product with a constant, or a quotient by one: what the other factor has terms of. false: neither. */
+static bool add_scaled(terms *all, const tn_ast_expr *figure, const mpq_t factor)
+{
+    const tn_ast_expr *left = (const tn_ast_expr *)figure->parts.first,
+                      *right = (const tn_ast_expr *)figure->parts.last;
+    bool over = figure->kind == TN_EXPR_OVER, found = true;
+    mpq_t constant;
+    mpq_init(constant);
+    if (is_constant(all, right, constant) && !(over && mpq_sgn(constant) == 0)) {
+        (over ? mpq_div : mpq_mul)(constant, factor, constant);
+        add_terms(all, left, constant);
+    } else if (!over && is_constant(all, left, constant)) {
+        mpq_mul(constant, factor, constant);
+        add_terms(all, right, constant);
+    } else {
+        found = false;
+    }
+    mpq_clear(constant);
+    return found;
+}
+
+/* The number's case that was chosen; NULL: the figure is none, or it is open which counts. */
+static const tn_ast_expr *chosen_case(const terms *all, const tn_ast_expr *figure)
+{
+    size_t i = 0, wanted = figure->number ? all->c->cases[figure->number - all->c->schema->numbers] : TN_NONE;
+    for (TN_EACH(const tn_ast_number_case, one, figure->number ? figure->number->ast->cases : tn_ast_empty()))
+        if (i++ == wanted)
+            return one->sum;
+    return NULL;
+}
+
+/* Adds the figure times the factor. Recursion is as deep as the parser lets sums nest, and numbers be made of others.
+ */
+static void add_terms(terms *all, const tn_ast_expr *figure, const mpq_t factor)
+{
+    bool minus = figure->kind == TN_EXPR_MINUS || figure->kind == TN_EXPR_NEGATIVE;
+    const tn_ast_expr *of_case = figure->kind == TN_EXPR_FIGURE ? chosen_case(all, figure) : NULL;
+    if (of_case) {
+        add_terms(all, of_case, factor);
+    } else if (figure->kind == TN_EXPR_PLUS || minus) {
+        mpq_t last;
+        mpq_init(last);
+        (minus ? mpq_neg : mpq_set)(last, factor);
+        if (figure->kind != TN_EXPR_NEGATIVE)
+            add_terms(all, (const tn_ast_expr *)figure->parts.first, factor);
+        add_terms(all, (const tn_ast_expr *)figure->parts.last, last);
+        mpq_clear(last);
+    } else if ((figure->kind != TN_EXPR_TIMES && figure->kind != TN_EXPR_OVER) || !add_scaled(all, figure, factor)) {
+        add_term(all, figure, factor);
+    }
+}
+
+/* Gives all numbers one denominator, and so makes them whole. */
+static void make_whole(terms *all)
+{
+    mpz_t common, factor;
+    mpz_init_set_ui(common, 1);
+    mpz_init(factor);
+    for (size_t t = 0; t < all->count; t++)
+        for (size_t i = 0; i < all->items[t]->made.count; i++)
+            mpz_lcm(common, common, mpq_denref(all->items[t]->exact[i]));
+    for (size_t t = 0; t < all->count; t++)
+        for (size_t i = 0; i < all->items[t]->made.count; i++) {
+            mpq_t *exact = &all->items[t]->exact[i];
+            mpz_divexact(factor, common, mpq_denref(*exact));
+            mpz_mul(all->items[t]->made.values[i], mpq_numref(*exact), factor);
+        }
+    mpz_clears(common, factor, NULL);
+}
+
+/* ---- its trays */
+
+static unsigned signs_of(tn_operator op)
+{
+    switch (op) {
+    case TN_LESS:
+        return TN_CHOICE_BELOW;
+    case TN_AT_MOST:
+        return TN_CHOICE_BELOW | TN_CHOICE_ZERO;
+    case TN_EQUAL:
+        return TN_CHOICE_ZERO;
+    case TN_UNEQUAL:
+        return TN_CHOICE_BELOW | TN_CHOICE_ABOVE;
+    case TN_AT_LEAST:
+        return TN_CHOICE_ZERO | TN_CHOICE_ABOVE;
+    default:
+        return TN_CHOICE_ABOVE;
+    }
+}
+
+static void report_long(comparison *c)
+{
+    if (!c->lost) {
+        tn_diagnostic *d =
+            tn_report(c->check->diagnostics, E_TOO_MANY, c->span,
+                      "this compares more than %d combinations of values that add up differently", COMBINATIONS_MAX);
+        tn_help(c->check->diagnostics, d, "compare fewer fields at once, or fields of fewer values");
+    }
+    c->lost = true;
+}
+
+/* Of the terms, the sets. */
+static tn_tray_set of_terms(terms *all)
+{
+    tn_tray_set set = {TN_CHOICE_LOST, TN_CHOICE_LOST};
+    tn_choice_term *made = tn_array_new(all->count + 1, sizeof *made);
+    all->no_memory |= !made;
+    for (size_t t = 0; made && t < all->count; t++)
+        made[t] = all->items[t]->made;
+    if (made)
+        tn_choices_by_sum(all->c->choices, made, all->count, signs_of(all->c->op), COMBINATIONS_MAX, &set.yes, &set.no,
+                          &all->longer);
+    free(made);
+    return set;
+}
+
+/* All numbers of the schema that the sides name are small, or have the case that counts. */
+static tn_tray_set compare_chosen(comparison *c)
+{
+    terms all = {.c = c};
+    tn_tray_set set = {TN_CHOICE_LOST, TN_CHOICE_LOST};
+    mpq_t one;
+    mpq_init(one);
+    mpq_set_si(one, 1, 1);
+    add_terms(&all, c->left, one);
+    mpq_neg(one, one);
+    add_terms(&all, c->right, one);
+    if (!all.longer && !all.no_memory) {
+        make_whole(&all);
+        set = of_terms(&all);
+    }
+    if (all.longer)
+        report_long(c);
+    c->check->out_of_memory |= all.no_memory;
+    c->lost |= all.no_memory;
+    for (size_t t = 0; t < all.count; t++)
+        clear_term(all.items[t]);
+    free(all.items);
+    mpq_clear(one);
+    return set;
+}
+
+/* Do so few values tell the number that all of them can be gone through? */
+static bool is_few(const comparison *c, const tn_ast_expr *figure)
+{
+    bool depends[TN_FIELDS_MAX] = {0};
+    size_t size = 1;
+    tn_figure_fields(c->schema, figure, c->cases, depends);
+    for (uint32_t f = 0; f < c->schema->field_count && size <= NUMBER_MAX; f++)
+        size *= depends[f] ? c->schema->fields[f].value_count : 1;
+    return size <= NUMBER_MAX;
+}
+
+/* A number in it that many values tell, and whose case is not chosen yet; NULL: there is none. */
 static const tn_checked_number *open_number(const comparison *c, const tn_ast_expr *figure)
 {
     const tn_checked_number *number = figure->kind == TN_EXPR_FIGURE ? figure->number : NULL;
     if (number && c->cases[number - c->schema->numbers] == TN_NONE)
-        return number;
+        return is_few(c, figure) ? NULL : number;
     for (TN_EACH(const tn_ast_expr, part, figure->parts)) {
         number = open_number(c, part);
         if (number)
@@ -457,14 +665,14 @@ static tn_choice_set of_boxes(comparison *c, const tn_checked_trays *trays)
     return all;
 }
 
-/* The trays that meet a case of a number are looked at apart, with what the case says: so the fields that tell the
+/* The trays that meet a case of such a number are looked at apart, with what the case says: so the fields that tell the
  * cases apart are not gone through with all others. As many numbers are chosen one inside another as it has. */
 static tn_tray_set compare(comparison *c)
 {
     const tn_checked_number *number = open_number(c, c->left);
     number = number ? number : open_number(c, c->right);
     if (!number)
-        return is_short(c) ? of_fields(c, 0) : (tn_tray_set){TN_CHOICE_LOST, TN_CHOICE_LOST};
+        return compare_chosen(c);
     tn_choice_set rest = TN_CHOICE_ALL;
     tn_tray_set all = {TN_CHOICE_NONE, TN_CHOICE_NONE};
     size_t *chosen = &c->cases[number - c->schema->numbers];
@@ -505,9 +713,7 @@ static bool compare_sides(tn_check *check, tn_checked_schema *schema, tn_ast_exp
         return false;
     for (uint32_t n = 0; n < schema->number_count; n++)
         c.cases[n] = TN_NONE;
-    mpq_inits(c.a, c.b, NULL);
     *set = compare(&c);
-    mpq_clears(c.a, c.b, NULL);
     return !c.lost;
 }
 

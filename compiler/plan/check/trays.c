@@ -176,7 +176,7 @@ static void add_limit(limits *l, const tn_checked_schema *older, const tn_ast_fo
     tn_span span = forbid->node.span;
     if (!tn_check_limit_set(l->check, l->schema, older, forbid->expr, &set) ||
         !tn_schema_choices(l->check, l->schema) ||
-        !tn_check_boxes(l->check, l->schema, forbid->only ? set.no : set.yes, span, &out)) {
+        !tn_check_boxes(l->check, l->schema, forbid->only ? set.no : set.yes, TN_FORBID_BOXES_MAX, span, &out)) {
         l->schema->broken = true;
         return;
     }
@@ -290,7 +290,7 @@ static bool find_trays(tn_check *check, tn_checked_schema *schema, const tn_chec
     if (sums)
         return tn_check_tray_set(check, schema, older, c->tray, &set) &&
                tn_check_undivided(check, schema, set, c->tray->node.span) &&
-               tn_check_boxes(check, schema, set.yes, c->tray->node.span, trays);
+               tn_check_boxes(check, schema, set.yes, TN_TRAY_BOXES_MAX, c->tray->node.span, trays);
     trays->boxes = TN_NEW_ARRAY(check->arena, tn_checked_spec *, 1);
     if (!trays->boxes)
         return false;

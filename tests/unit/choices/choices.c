@@ -1,5 +1,6 @@
 /* Sets of combinations, against trying all combinations. */
 #include "runtime/choices/choices.h"
+#include "runtime/choices/sums.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -187,9 +188,159 @@ static void test_very_many(void **state)
     tn_choices_free(choices);
 }
 
+/* ---- sums */
+
+enum { TERMS = 4, TERM_VALUES = COMBINATIONS };
+
+typedef struct drawn_term {
+    uint32_t fields[FIELDS];
+    mpz_t values[TERM_VALUES];
+    uint8_t outcomes[TERM_VALUES];
+    tn_choice_term term;
+} drawn_term;
+
+static void draw_term(test_random *random, drawn_term *t)
+{
+    *t = (drawn_term){.term = {.count = 1}};
+    uint32_t chosen = test_random_below(random, 1u << FIELDS) & test_random_below(random, 1u << FIELDS);
+    bool large = test_random_below(random, 4) == 0, holes = test_random_below(random, 5) == 0;
+    for (uint32_t f = 0; f < FIELDS; f++)
+        if (chosen >> f & 1) {
+            t->fields[t->term.field_count++] = f;
+            t->term.count *= counts[f];
+        }
+    t->term.fields = t->fields;
+    t->term.values = t->values;
+    t->term.outcomes = t->outcomes;
+    for (size_t i = 0; i < t->term.count; i++) {
+        mpz_init_set_si(t->values[i], (long)test_random_below(random, 9) - 4);
+        if (large)
+            mpz_mul_2exp(t->values[i], t->values[i], 70);
+        t->outcomes[i] = holes && test_random_below(random, 6) == 0 ? (uint8_t)(1 + test_random_below(random, 2)) : 0;
+    }
+}
+
+/* What the combination's sum is: its sign, or 2 and 3 for the outcomes without a number. */
+static int sum_of(const drawn_term *terms, const uint8_t *values)
+{
+    mpz_t sum;
+    int outcome = 0;
+    mpz_init(sum);
+    for (int t = 0; t < TERMS; t++) {
+        size_t place = 0;
+        for (uint32_t i = 0; i < terms[t].term.field_count; i++)
+            place = place * counts[terms[t].fields[i]] + values[terms[t].fields[i]];
+        mpz_add(sum, sum, terms[t].values[place]);
+        outcome = outcome || terms[t].outcomes[place] == 0 ? outcome : 1 + terms[t].outcomes[place];
+    }
+    int sign = mpz_sgn(sum);
+    mpz_clear(sum);
+    return outcome ? outcome : sign;
+}
+
+/* Where terms of one combination differ in why they have no number, it is in neither set or in `no`. */
+static bool is_mixed(const drawn_term *terms, const uint8_t *values)
+{
+    bool silent = false, undefined = false;
+    for (int t = 0; t < TERMS; t++) {
+        size_t place = 0;
+        for (uint32_t i = 0; i < terms[t].term.field_count; i++)
+            place = place * counts[terms[t].fields[i]] + values[terms[t].fields[i]];
+        silent |= terms[t].outcomes[place] == TN_CHOICE_SILENT;
+        undefined |= terms[t].outcomes[place] == TN_CHOICE_UNDEFINED;
+    }
+    return silent && undefined;
+}
+
+static void check_sums(test_random *random, const drawn_term *drawn, unsigned signs)
+{
+    tn_choice_diagram *choices = tn_choices_new(counts, FIELDS, TN_CHOICES_ROOM);
+    assert_non_null(choices);
+    tn_choice_term terms[TERMS];
+    tn_choice_set sets[2];
+    bool longer = true;
+    for (int t = 0; t < TERMS; t++)
+        terms[t] = drawn[t].term;
+    tn_choices_by_sum(choices, terms, TERMS, signs, 1000, &sets[0], &sets[1], &longer);
+    assert_false(longer);
+    plain_set yes = {0}, no = {0};
+    seen found[2] = {0};
+    assert_true(tn_choices_each(choices, sets[0], see, &found[0]));
+    assert_true(tn_choices_each(choices, sets[1], see, &found[1]));
+    for (uint32_t n = 0; n < COMBINATIONS; n++) {
+        uint8_t values[FIELDS];
+        values_of(n, values);
+        int sum = sum_of(drawn, values);
+        yes.in[n] = sum < 2 && signs & (sum < 0 ? TN_CHOICE_BELOW : sum > 0 ? TN_CHOICE_ABOVE : TN_CHOICE_ZERO);
+        no.in[n] = is_mixed(drawn, values) ? found[1].set.in[n] : sum == 2 || (sum < 2 && !yes.in[n]);
+    }
+    check(choices, sets[0], &yes);
+    check(choices, sets[1], &no);
+    tn_choices_by_sum(choices, terms, TERMS, signs, test_random_below(random, 8), &sets[0], &sets[1], &longer);
+    assert_true(!longer || sets[0] == TN_CHOICE_LOST);
+    assert_int_equal(sets[0] == TN_CHOICE_LOST, longer);
+    tn_choices_free(choices);
+}
+
+static void test_sums(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 0; seed < 400; seed++) {
+        test_random random = {seed, 1};
+        static drawn_term drawn[TERMS];
+        for (int t = 0; t < TERMS; t++)
+            draw_term(&random, &drawn[t]);
+        for (unsigned signs = 0; signs < 8; signs++)
+            check_sums(&random, drawn, signs);
+        for (int t = 0; t < TERMS; t++)
+            for (size_t i = 0; i < drawn[t].term.count; i++)
+                mpz_clear(drawn[t].values[i]);
+    }
+}
+
+/* Ten fields of ten digits each: few sums, and ten thousand million combinations. */
+static void test_many_added(void **state)
+{
+    (void)state;
+    enum { DIGITS = 10 };
+    uint32_t ten[DIGITS], fields[DIGITS];
+    mpz_t values[DIGITS], limit;
+    uint8_t outcomes[DIGITS] = {0};
+    tn_choice_term terms[DIGITS + 1];
+    mpz_init_set_si(limit, -40);
+    for (uint32_t f = 0; f < DIGITS; f++) {
+        ten[f] = DIGITS;
+        fields[f] = f;
+        mpz_init_set_ui(values[f], f);
+    }
+    for (uint32_t f = 0; f < DIGITS; f++)
+        terms[f] = (tn_choice_term){&fields[f], 1, values, outcomes, DIGITS};
+    terms[DIGITS] = (tn_choice_term){NULL, 0, &limit, outcomes, 1};
+    tn_choice_diagram *choices = tn_choices_new(ten, DIGITS, TN_CHOICES_ROOM);
+    assert_non_null(choices);
+    uint64_t ways[9 * DIGITS + 1] = {1}; /* in how many ways digits add up to that */
+    for (int digit = 0; digit < DIGITS; digit++)
+        for (int sum = 9 * DIGITS; sum >= 0; sum--)
+            for (int last = 1; last < 10 && last <= sum; last++)
+                ways[sum] += ways[sum - last];
+    tn_choice_set yes, no;
+    uint64_t count, others;
+    bool longer;
+    tn_choices_by_sum(choices, terms, DIGITS + 1, TN_CHOICE_ZERO, 1 << 14, &yes, &no, &longer);
+    assert_false(longer);
+    assert_true(tn_choices_count(choices, yes, &count) && tn_choices_count(choices, no, &others));
+    assert_int_equal(count, ways[40]);
+    assert_int_equal(count + others, 10000000000);
+    tn_choices_free(choices);
+    for (uint32_t f = 0; f < DIGITS; f++)
+        mpz_clear(values[f]);
+    mpz_clear(limit);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_sets), cmocka_unit_test(test_room),
-                                       cmocka_unit_test(test_very_many)};
+                                       cmocka_unit_test(test_very_many), cmocka_unit_test(test_sums),
+                                       cmocka_unit_test(test_many_added)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
