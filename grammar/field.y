@@ -14,7 +14,7 @@
 #include "compiler/field/field.h"
 }
 
-%parse-param {tn_growth_parse *parse} {void *scanner}
+%parse-param {tn_parsing *parse} {void *scanner}
 %lex-param {void *scanner}
 
 %code {
@@ -25,10 +25,10 @@
                      : (tn_span){YYRHSLOC(RHS, 0).file, YYRHSLOC(RHS, 0).end, YYRHSLOC(RHS, 0).end})
 
 int tn_field_lex(TN_FIELD_STYPE *value, tn_span *span, void *scanner);
-static void tn_field_error(const tn_span *span, tn_growth_parse *parse, void *scanner, const char *message);
-static tn_expression *of_two(tn_growth_parse *parse, tn_opcode op, tn_span span, tn_expression *a, tn_expression *b);
-static tn_expression *mesh(tn_growth_parse *parse, tn_span span, tn_field_text name, tn_field_text path);
-static tn_expression *call(tn_growth_parse *parse, tn_span span, const char *name, tn_span name_span, tn_expression *arguments);
+static void tn_field_error(const tn_span *span, tn_parsing *parse, void *scanner, const char *message);
+static tn_expression *of_two(tn_parsing *parse, tn_opcode op, tn_span span, tn_expression *a, tn_expression *b);
+static tn_expression *mesh(tn_parsing *parse, tn_span span, tn_field_text name, tn_field_text path);
+static tn_expression *call(tn_parsing *parse, tn_span span, const char *name, tn_span name_span, tn_expression *arguments);
 }
 
 %union {
@@ -119,13 +119,13 @@ arguments
 
 %%
 
-static tn_expression *of_two(tn_growth_parse *parse, tn_opcode op, tn_span span, tn_expression *a, tn_expression *b)
+static tn_expression *of_two(tn_parsing *parse, tn_opcode op, tn_span span, tn_expression *a, tn_expression *b)
 {
     return tn_expression_of(parse->arena, op, span, a, b, NULL);
 }
 
 /* `distance("hull.obj")`: what it is of is its name. */
-static tn_expression *mesh(tn_growth_parse *parse, tn_span span, tn_field_text name, tn_field_text path)
+static tn_expression *mesh(tn_parsing *parse, tn_span span, tn_field_text name, tn_field_text path)
 {
     if (strcmp(name.text ? name.text : "", "distance") != 0) {
         tn_diagnostic *d = tn_report(parse->diagnostics, E_UNEXPECTED, path.span, "only `distance` takes a text");
@@ -140,7 +140,7 @@ static tn_expression *mesh(tn_growth_parse *parse, tn_span span, tn_field_text n
     return e;
 }
 
-static tn_expression *call(tn_growth_parse *parse, tn_span span, const char *name, tn_span name_span, tn_expression *arguments)
+static tn_expression *call(tn_parsing *parse, tn_span span, const char *name, tn_span name_span, tn_expression *arguments)
 {
     (void)parse;
     if (arguments) {
@@ -196,7 +196,7 @@ static const char *likely_fix(yysymbol_kind_t found, yysymbol_kind_t before, con
     return "a statement starts with `use`, `let`, `fn`, `surface`, `box`, `grid` or `unit`";
 }
 
-static int yyreport_syntax_error(const yypcontext_t *context, tn_growth_parse *parse, void *scanner)
+static int yyreport_syntax_error(const yypcontext_t *context, tn_parsing *parse, void *scanner)
 {
     (void)scanner;
     enum { MOST = 64 };
@@ -207,12 +207,12 @@ static int yyreport_syntax_error(const yypcontext_t *context, tn_growth_parse *p
         return count;
     for (int i = 0; i < count; i++)
         expected[i] = yysymbol_name(kinds[i]);
-    tn_growth_syntax_error(parse, *yypcontext_location(context), found == YYSYMBOL_YYEMPTY ? "this" : yysymbol_name(found), expected,
+    tn_parsing_syntax_error(parse, *yypcontext_location(context), found == YYSYMBOL_YYEMPTY ? "this" : yysymbol_name(found), expected,
                            (size_t)count, likely_fix(found, YYTRANSLATE(parse->token_before), kinds, count));
     return 0;
 }
 
-static void tn_field_error(const tn_span *span, tn_growth_parse *parse, void *scanner, const char *message)
+static void tn_field_error(const tn_span *span, tn_parsing *parse, void *scanner, const char *message)
 {
     (void)scanner;
     (void)message;
@@ -223,10 +223,10 @@ tn_field_file *tn_parse_field(tn_arena *arena, tn_diagnostics *diagnostics, uint
 {
     tn_field_file *result = TN_NEW(arena, tn_field_file);
     const tn_source *source = &diagnostics->sources->files[file];
-    tn_growth_parse parse = {.arena = arena, .diagnostics = diagnostics, .text = source->text, .size = source->size, .file = file, .result = result, .tokens = tokens};
+    tn_parsing parse = {.arena = arena, .diagnostics = diagnostics, .text = source->text, .size = source->size, .file = file, .result = result, .tokens = tokens};
     if (!result)
         return NULL;
-    if (!tn_growth_readable(&parse)) {
+    if (!tn_parsing_is_text(&parse)) {
         result->damaged = true;
         return result;
     }

@@ -17,7 +17,7 @@
 #include "compiler/hemls/hemls.h"
 }
 
-%parse-param {tn_growth_parse *parse} {void *scanner}
+%parse-param {tn_parsing *parse} {void *scanner}
 %lex-param {void *scanner}
 
 %code {
@@ -28,11 +28,11 @@
                      : (tn_span){YYRHSLOC(RHS, 0).file, YYRHSLOC(RHS, 0).end, YYRHSLOC(RHS, 0).end})
 
 int tn_hemls_lex(TN_HEMLS_STYPE *value, tn_span *span, void *scanner);
-static void tn_hemls_error(const tn_span *span, tn_growth_parse *parse, void *scanner, const char *message);
+static void tn_hemls_error(const tn_span *span, tn_parsing *parse, void *scanner, const char *message);
 static tn_hemls_choice weight(tn_span span, tn_decimal number);
 static tn_hemls_choice condition(tn_span span, tn_comparison comparison, double bound);
-static void add_symbols(tn_growth_parse *parse, tn_span span, tn_hemls_symbols symbols, tn_hemls_alternatives alternatives);
-static void add_setting(tn_growth_parse *parse, tn_hemls_line_kind kind, tn_span span, double number);
+static void add_symbols(tn_parsing *parse, tn_span span, tn_hemls_symbols symbols, tn_hemls_alternatives alternatives);
+static void add_setting(tn_parsing *parse, tn_hemls_line_kind kind, tn_span span, double number);
 }
 
 %union {
@@ -130,7 +130,7 @@ static tn_hemls_choice condition(tn_span span, tn_comparison comparison, double 
     return (tn_hemls_choice){.comparison = comparison, .value = bound, .span = span};
 }
 
-static void add_symbols(tn_growth_parse *parse, tn_span span, tn_hemls_symbols symbols, tn_hemls_alternatives alternatives)
+static void add_symbols(tn_parsing *parse, tn_span span, tn_hemls_symbols symbols, tn_hemls_alternatives alternatives)
 {
     tn_hemls_line *line = tn_hemls_line_new(parse, alternatives.first ? TN_HEMLS_RULE : TN_HEMLS_AXIOM, span);
     if (!line)
@@ -140,7 +140,7 @@ static void add_symbols(tn_growth_parse *parse, tn_span span, tn_hemls_symbols s
     tn_hemls_add_line(parse, line);
 }
 
-static void add_setting(tn_growth_parse *parse, tn_hemls_line_kind kind, tn_span span, double number)
+static void add_setting(tn_parsing *parse, tn_hemls_line_kind kind, tn_span span, double number)
 {
     tn_hemls_line *line = tn_hemls_line_new(parse, kind, span);
     if (!line)
@@ -174,7 +174,7 @@ static const char *likely_fix(yysymbol_kind_t found, yysymbol_kind_t before)
     return "a line is a seed (`A + B + A`), a rule (`A -> A A`), or one of Angle, BranchAngle, Sync and Even";
 }
 
-static int yyreport_syntax_error(const yypcontext_t *context, tn_growth_parse *parse, void *scanner)
+static int yyreport_syntax_error(const yypcontext_t *context, tn_parsing *parse, void *scanner)
 {
     (void)scanner;
     enum { MOST = 32 };
@@ -185,12 +185,12 @@ static int yyreport_syntax_error(const yypcontext_t *context, tn_growth_parse *p
         if (expected[i] != YYSYMBOL_END_OF_LINE)
             names[used++] = yysymbol_name(expected[i]);
     const char *found = token == YYSYMBOL_YYEMPTY ? "this" : yysymbol_name(token);
-    tn_growth_syntax_error(parse, *yypcontext_location(context), found, names, (size_t)used,
+    tn_parsing_syntax_error(parse, *yypcontext_location(context), found, names, (size_t)used,
                            likely_fix(token, YYTRANSLATE(parse->token_before)));
     return 0;
 }
 
-static void tn_hemls_error(const tn_span *span, tn_growth_parse *parse, void *scanner, const char *message)
+static void tn_hemls_error(const tn_span *span, tn_parsing *parse, void *scanner, const char *message)
 {
     (void)scanner;
     tn_report(parse->diagnostics, E_TOO_DEEP, *span, "the file cannot be read further: %s", message);
@@ -200,10 +200,10 @@ tn_hemls_file *tn_parse_hemls(tn_arena *arena, tn_diagnostics *diagnostics, uint
 {
     tn_hemls_file *result = TN_NEW(arena, tn_hemls_file);
     const tn_source *source = &diagnostics->sources->files[file];
-    tn_growth_parse parse = {.arena = arena, .diagnostics = diagnostics, .text = source->text, .size = source->size, .file = file, .result = result, .tokens = tokens};
+    tn_parsing parse = {.arena = arena, .diagnostics = diagnostics, .text = source->text, .size = source->size, .file = file, .result = result, .tokens = tokens};
     if (!result)
         return NULL;
-    if (!tn_growth_readable(&parse)) {
+    if (!tn_parsing_is_text(&parse)) {
         result->damaged = true;
         return result;
     }

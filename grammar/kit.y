@@ -14,7 +14,7 @@
 #include "compiler/kit/kit.h"
 }
 
-%parse-param {tn_growth_parse *parse} {void *scanner}
+%parse-param {tn_parsing *parse} {void *scanner}
 %lex-param {void *scanner}
 
 %code {
@@ -25,17 +25,17 @@
                      : (tn_span){YYRHSLOC(RHS, 0).file, YYRHSLOC(RHS, 0).end, YYRHSLOC(RHS, 0).end})
 
 int tn_kit_lex(TN_KIT_STYPE *value, tn_span *span, void *scanner);
-static void tn_kit_error(const tn_span *span, tn_growth_parse *parse, void *scanner, const char *message);
-static tn_kit_node *node(tn_growth_parse *parse, tn_kit_kind kind, tn_span span, tn_kit_text name, tn_kit_nodes inner);
-static tn_kit_node *sized(tn_growth_parse *parse, tn_kit_kind kind, tn_span span, tn_kit_length a, tn_kit_length b, tn_kit_length c);
-static tn_kit_node *counted(tn_growth_parse *parse, tn_kit_kind kind, tn_span span, tn_kit_text name, tn_kit_length count);
-static tn_kit_node *filed(tn_growth_parse *parse, tn_span span, tn_kit_text name, tn_kit_text file, tn_kit_text up, tn_kit_nodes sizes);
-static tn_kit_node *part_from(tn_growth_parse *parse, tn_span span, tn_kit_text name, tn_kit_text doc, tn_kit_text from, tn_kit_text what,
+static void tn_kit_error(const tn_span *span, tn_parsing *parse, void *scanner, const char *message);
+static tn_kit_node *node(tn_parsing *parse, tn_kit_kind kind, tn_span span, tn_kit_text name, tn_kit_nodes inner);
+static tn_kit_node *sized(tn_parsing *parse, tn_kit_kind kind, tn_span span, tn_kit_length a, tn_kit_length b, tn_kit_length c);
+static tn_kit_node *counted(tn_parsing *parse, tn_kit_kind kind, tn_span span, tn_kit_text name, tn_kit_length count);
+static tn_kit_node *filed(tn_parsing *parse, tn_span span, tn_kit_text name, tn_kit_text file, tn_kit_text up, tn_kit_nodes sizes);
+static tn_kit_node *part_from(tn_parsing *parse, tn_span span, tn_kit_text name, tn_kit_text doc, tn_kit_text from, tn_kit_text what,
                               tn_kit_text file);
-static tn_kit_text text_of(tn_growth_parse *parse, tn_kit_length number);
-static tn_expression *number_of(tn_growth_parse *parse, tn_kit_length number);
-static tn_expression *count_of(tn_growth_parse *parse, tn_span span, tn_kit_text part);
-static tn_expression *of_two(tn_growth_parse *parse, tn_opcode op, tn_span span, tn_expression *a, tn_expression *b);
+static tn_kit_text text_of(tn_parsing *parse, tn_kit_length number);
+static tn_expression *number_of(tn_parsing *parse, tn_kit_length number);
+static tn_expression *count_of(tn_parsing *parse, tn_span span, tn_kit_text part);
+static tn_expression *of_two(tn_parsing *parse, tn_opcode op, tn_span span, tn_expression *a, tn_expression *b);
 static const tn_kit_text no_text = {0};
 static const tn_kit_nodes no_nodes = {0};
 }
@@ -345,7 +345,7 @@ call
 
 %%
 
-static tn_kit_node *node(tn_growth_parse *parse, tn_kit_kind kind, tn_span span, tn_kit_text name, tn_kit_nodes inner)
+static tn_kit_node *node(tn_parsing *parse, tn_kit_kind kind, tn_span span, tn_kit_text name, tn_kit_nodes inner)
 {
     tn_kit_node *made = tn_kit_node_new(parse, kind, span, name);
     if (made)
@@ -353,7 +353,7 @@ static tn_kit_node *node(tn_growth_parse *parse, tn_kit_kind kind, tn_span span,
     return made;
 }
 
-static tn_kit_node *sized(tn_growth_parse *parse, tn_kit_kind kind, tn_span span, tn_kit_length a, tn_kit_length b, tn_kit_length c)
+static tn_kit_node *sized(tn_parsing *parse, tn_kit_kind kind, tn_span span, tn_kit_length a, tn_kit_length b, tn_kit_length c)
 {
     tn_kit_node *made = tn_kit_node_new(parse, kind, span, no_text);
     if (made) {
@@ -364,7 +364,7 @@ static tn_kit_node *sized(tn_growth_parse *parse, tn_kit_kind kind, tn_span span
     return made;
 }
 
-static tn_kit_node *counted(tn_growth_parse *parse, tn_kit_kind kind, tn_span span, tn_kit_text name, tn_kit_length count)
+static tn_kit_node *counted(tn_parsing *parse, tn_kit_kind kind, tn_span span, tn_kit_text name, tn_kit_length count)
 {
     tn_kit_node *made = tn_kit_node_new(parse, kind, span, name);
     if (made)
@@ -372,7 +372,7 @@ static tn_kit_node *counted(tn_growth_parse *parse, tn_kit_kind kind, tn_span sp
     return made;
 }
 
-static tn_kit_node *filed(tn_growth_parse *parse, tn_span span, tn_kit_text name, tn_kit_text file, tn_kit_text up, tn_kit_nodes sizes)
+static tn_kit_node *filed(tn_parsing *parse, tn_span span, tn_kit_text name, tn_kit_text file, tn_kit_text up, tn_kit_nodes sizes)
 {
     tn_kit_node *made = node(parse, TN_KIT_FILED, span, name, sizes);
     if (made) {
@@ -383,7 +383,7 @@ static tn_kit_node *filed(tn_growth_parse *parse, tn_span span, tn_kit_text name
 }
 
 /* `from ldraw "3001.dat"`: the two words are checked later. */
-static tn_kit_node *part_from(tn_growth_parse *parse, tn_span span, tn_kit_text name, tn_kit_text doc, tn_kit_text from, tn_kit_text what,
+static tn_kit_node *part_from(tn_parsing *parse, tn_span span, tn_kit_text name, tn_kit_text doc, tn_kit_text from, tn_kit_text what,
                               tn_kit_text file)
 {
     tn_kit_node *made = node(parse, TN_KIT_PART, span, name, no_nodes);
@@ -397,19 +397,19 @@ static tn_kit_node *part_from(tn_growth_parse *parse, tn_span span, tn_kit_text 
 }
 
 /* A number that is the name of a part. */
-static tn_kit_text text_of(tn_growth_parse *parse, tn_kit_length number)
+static tn_kit_text text_of(tn_parsing *parse, tn_kit_length number)
 {
     tn_span span = number.span;
     return (tn_kit_text){tn_arena_copy(parse->arena, parse->text + span.begin, span.end - span.begin), span};
 }
 
-static tn_expression *number_of(tn_growth_parse *parse, tn_kit_length number)
+static tn_expression *number_of(tn_parsing *parse, tn_kit_length number)
 {
-    return tn_expression_number(parse->arena, number.span, tn_growth_number(parse, number.span).value);
+    return tn_expression_number(parse->arena, number.span, tn_parsing_number(parse, number.span).value);
 }
 
 /* A term whose name no one can write; checking knows it by its call. */
-static tn_expression *count_of(tn_growth_parse *parse, tn_span span, tn_kit_text part)
+static tn_expression *count_of(tn_parsing *parse, tn_span span, tn_kit_text part)
 {
     tn_expression *made = tn_expression_name(parse->arena, span, part.text);
     if (made) {
@@ -419,7 +419,7 @@ static tn_expression *count_of(tn_growth_parse *parse, tn_span span, tn_kit_text
     return made;
 }
 
-static tn_expression *of_two(tn_growth_parse *parse, tn_opcode op, tn_span span, tn_expression *a, tn_expression *b)
+static tn_expression *of_two(tn_parsing *parse, tn_opcode op, tn_span span, tn_expression *a, tn_expression *b)
 {
     return tn_expression_of(parse->arena, op, span, a, b, NULL);
 }
@@ -483,7 +483,7 @@ static const char *likely_fix(yysymbol_kind_t found, yysymbol_kind_t before, boo
     return "a statement starts with a word such as `part`, `rule` or `model`, and ends with `;`";
 }
 
-static int yyreport_syntax_error(const yypcontext_t *context, tn_growth_parse *parse, void *scanner)
+static int yyreport_syntax_error(const yypcontext_t *context, tn_parsing *parse, void *scanner)
 {
     (void)scanner;
     enum { MOST = 64 };
@@ -497,12 +497,12 @@ static int yyreport_syntax_error(const yypcontext_t *context, tn_growth_parse *p
         expected[i] = yysymbol_name(kinds[i]);
         may_end |= kinds[i] == YYSYMBOL_END;
     }
-    tn_growth_syntax_error(parse, *yypcontext_location(context), found == YYSYMBOL_YYEMPTY ? "this" : yysymbol_name(found), expected,
+    tn_parsing_syntax_error(parse, *yypcontext_location(context), found == YYSYMBOL_YYEMPTY ? "this" : yysymbol_name(found), expected,
                            (size_t)count, parse->asks ? "write conditions, as `components = 1, count(3005) <= 30`" : likely_fix(found, YYTRANSLATE(parse->token_before), may_end));
     return 0;
 }
 
-static void tn_kit_error(const tn_span *span, tn_growth_parse *parse, void *scanner, const char *message)
+static void tn_kit_error(const tn_span *span, tn_parsing *parse, void *scanner, const char *message)
 {
     (void)scanner;
     (void)message;
@@ -513,10 +513,10 @@ static tn_kit_file *parse_text(tn_arena *arena, tn_diagnostics *diagnostics, uin
 {
     tn_kit_file *result = TN_NEW(arena, tn_kit_file);
     const tn_source *source = &diagnostics->sources->files[file];
-    tn_growth_parse parse = {.arena = arena, .diagnostics = diagnostics, .text = source->text, .size = source->size, .file = file, .result = result, .tokens = tokens, .asks = asks};
+    tn_parsing parse = {.arena = arena, .diagnostics = diagnostics, .text = source->text, .size = source->size, .file = file, .result = result, .tokens = tokens, .asks = asks};
     if (!result)
         return NULL;
-    if (!tn_growth_readable(&parse)) {
+    if (!tn_parsing_is_text(&parse)) {
         result->damaged = true;
         return result;
     }

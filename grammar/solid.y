@@ -14,7 +14,7 @@
 #include "compiler/solid/solid.h"
 }
 
-%parse-param {tn_growth_parse *parse} {void *scanner}
+%parse-param {tn_parsing *parse} {void *scanner}
 %lex-param {void *scanner}
 
 %code {
@@ -25,22 +25,22 @@
                      : (tn_span){YYRHSLOC(RHS, 0).file, YYRHSLOC(RHS, 0).end, YYRHSLOC(RHS, 0).end})
 
 int tn_solid_lex(TN_SOLID_STYPE *value, tn_span *span, void *scanner);
-static void tn_solid_error(const tn_span *span, tn_growth_parse *parse, void *scanner, const char *message);
-static tn_solid_item *with_entries(tn_growth_parse *parse, tn_solid_statement kind, tn_span span, tn_solid_entries entries);
-static tn_solid_item *with_numbers(tn_growth_parse *parse, tn_solid_statement kind, tn_span span, tn_solid_number a, tn_solid_number b);
-static tn_solid_item *with_parts(tn_growth_parse *parse, tn_solid_statement kind, tn_span span, tn_solid_text name, tn_solid_text doc,
+static void tn_solid_error(const tn_span *span, tn_parsing *parse, void *scanner, const char *message);
+static tn_solid_item *with_entries(tn_parsing *parse, tn_solid_statement kind, tn_span span, tn_solid_entries entries);
+static tn_solid_item *with_numbers(tn_parsing *parse, tn_solid_statement kind, tn_span span, tn_solid_number a, tn_solid_number b);
+static tn_solid_item *with_parts(tn_parsing *parse, tn_solid_statement kind, tn_span span, tn_solid_text name, tn_solid_text doc,
                                  tn_solid_part *parts);
-static tn_solid_item *goal(tn_growth_parse *parse, tn_span span, tn_solid_text name, tn_expression *expression, tn_solid_item *parts);
-static tn_solid_item *goal_part(tn_growth_parse *parse, tn_solid_item *item, tn_span span, int which, tn_solid_number number);
-static void missing_end(tn_growth_parse *parse, tn_span place);
-static tn_solid_part *part(tn_growth_parse *parse, tn_solid_part_kind kind, tn_span span, tn_solid_part *before, tn_solid_vector a,
+static tn_solid_item *goal(tn_parsing *parse, tn_span span, tn_solid_text name, tn_expression *expression, tn_solid_item *parts);
+static tn_solid_item *goal_part(tn_parsing *parse, tn_solid_item *item, tn_span span, int which, tn_solid_number number);
+static void missing_end(tn_parsing *parse, tn_span place);
+static tn_solid_part *part(tn_parsing *parse, tn_solid_part_kind kind, tn_span span, tn_solid_part *before, tn_solid_vector a,
                            tn_solid_vector b);
-static tn_solid_entry *entry_of(tn_growth_parse *parse, tn_span span, tn_expression *expression);
-static tn_solid_entry *entry_of_number(tn_growth_parse *parse, tn_solid_number number);
-static tn_solid_entry *entry_of_axis(tn_growth_parse *parse, tn_solid_text axis);
-static tn_expression *number_of(tn_growth_parse *parse, tn_solid_number number);
-static tn_expression *of_two(tn_growth_parse *parse, tn_opcode op, tn_span span, tn_expression *a, tn_expression *b);
-static void end_design(tn_growth_parse *parse, tn_solid_design *design, tn_solid_text name, tn_solid_text doc, tn_solid_text base, tn_span span);
+static tn_solid_entry *entry_of(tn_parsing *parse, tn_span span, tn_expression *expression);
+static tn_solid_entry *entry_of_number(tn_parsing *parse, tn_solid_number number);
+static tn_solid_entry *entry_of_axis(tn_parsing *parse, tn_solid_text axis);
+static tn_expression *number_of(tn_parsing *parse, tn_solid_number number);
+static tn_expression *of_two(tn_parsing *parse, tn_opcode op, tn_span span, tn_expression *a, tn_expression *b);
+static void end_design(tn_parsing *parse, tn_solid_design *design, tn_solid_text name, tn_solid_text doc, tn_solid_text base, tn_span span);
 }
 
 %union {
@@ -215,7 +215,7 @@ call
 
 %%
 
-static tn_solid_item *with_entries(tn_growth_parse *parse, tn_solid_statement kind, tn_span span, tn_solid_entries entries)
+static tn_solid_item *with_entries(tn_parsing *parse, tn_solid_statement kind, tn_span span, tn_solid_entries entries)
 {
     tn_solid_item *item = tn_solid_item_new(parse, kind, span);
     if (item)
@@ -223,7 +223,7 @@ static tn_solid_item *with_entries(tn_growth_parse *parse, tn_solid_statement ki
     return item;
 }
 
-static tn_solid_item *with_numbers(tn_growth_parse *parse, tn_solid_statement kind, tn_span span, tn_solid_number a, tn_solid_number b)
+static tn_solid_item *with_numbers(tn_parsing *parse, tn_solid_statement kind, tn_span span, tn_solid_number a, tn_solid_number b)
 {
     tn_solid_item *item = tn_solid_item_new(parse, kind, span);
     if (item) {
@@ -233,7 +233,7 @@ static tn_solid_item *with_numbers(tn_growth_parse *parse, tn_solid_statement ki
     return item;
 }
 
-static tn_solid_item *with_parts(tn_growth_parse *parse, tn_solid_statement kind, tn_span span, tn_solid_text name, tn_solid_text doc,
+static tn_solid_item *with_parts(tn_parsing *parse, tn_solid_statement kind, tn_span span, tn_solid_text name, tn_solid_text doc,
                                  tn_solid_part *parts)
 {
     tn_solid_item *item = tn_solid_item_new(parse, kind, span);
@@ -245,7 +245,7 @@ static tn_solid_item *with_parts(tn_growth_parse *parse, tn_solid_statement kind
     return item;
 }
 
-static tn_solid_item *goal(tn_growth_parse *parse, tn_span span, tn_solid_text name, tn_expression *expression, tn_solid_item *parts)
+static tn_solid_item *goal(tn_parsing *parse, tn_span span, tn_solid_text name, tn_expression *expression, tn_solid_item *parts)
 {
     if (!parts)
         return NULL;
@@ -257,7 +257,7 @@ static tn_solid_item *goal(tn_growth_parse *parse, tn_span span, tn_solid_text n
     return parts;
 }
 
-static tn_solid_item *goal_part(tn_growth_parse *parse, tn_solid_item *item, tn_span span, int which, tn_solid_number number)
+static tn_solid_item *goal_part(tn_parsing *parse, tn_solid_item *item, tn_span span, int which, tn_solid_number number)
 {
     if (!item)
         return NULL;
@@ -271,7 +271,7 @@ static tn_solid_item *goal_part(tn_growth_parse *parse, tn_solid_item *item, tn_
     return item;
 }
 
-static tn_solid_part *part(tn_growth_parse *parse, tn_solid_part_kind kind, tn_span span, tn_solid_part *before, tn_solid_vector a,
+static tn_solid_part *part(tn_parsing *parse, tn_solid_part_kind kind, tn_span span, tn_solid_part *before, tn_solid_vector a,
                            tn_solid_vector b)
 {
     tn_solid_part *made = tn_solid_part_new(parse, kind, span, before);
@@ -282,14 +282,14 @@ static tn_solid_part *part(tn_growth_parse *parse, tn_solid_part_kind kind, tn_s
     return made;
 }
 
-static void missing_end(tn_growth_parse *parse, tn_span place)
+static void missing_end(tn_parsing *parse, tn_span place)
 {
     tn_diagnostic *d = tn_report(parse->diagnostics, E_UNEXPECTED, place, "`;` is missing here");
     tn_help(parse->diagnostics, d, "each statement ends with `;`");
     tn_replace_with(parse->diagnostics, d, ";");
 }
 
-static tn_solid_entry *entry_of(tn_growth_parse *parse, tn_span span, tn_expression *expression)
+static tn_solid_entry *entry_of(tn_parsing *parse, tn_span span, tn_expression *expression)
 {
     tn_solid_entry *entry = tn_solid_entry_new(parse, span);
     if (entry)
@@ -297,7 +297,7 @@ static tn_solid_entry *entry_of(tn_growth_parse *parse, tn_span span, tn_express
     return entry;
 }
 
-static tn_solid_entry *entry_of_number(tn_growth_parse *parse, tn_solid_number number)
+static tn_solid_entry *entry_of_number(tn_parsing *parse, tn_solid_number number)
 {
     tn_solid_entry *entry = tn_solid_entry_new(parse, number.span);
     if (entry)
@@ -305,7 +305,7 @@ static tn_solid_entry *entry_of_number(tn_growth_parse *parse, tn_solid_number n
     return entry;
 }
 
-static tn_solid_entry *entry_of_axis(tn_growth_parse *parse, tn_solid_text axis)
+static tn_solid_entry *entry_of_axis(tn_parsing *parse, tn_solid_text axis)
 {
     tn_solid_entry *entry = tn_solid_entry_new(parse, axis.span);
     char letter = axis.text && axis.text[0] && !axis.text[1] ? (char)(axis.text[0] | 0x20) : 0;
@@ -320,17 +320,17 @@ static tn_solid_entry *entry_of_axis(tn_growth_parse *parse, tn_solid_text axis)
     return entry;
 }
 
-static tn_expression *number_of(tn_growth_parse *parse, tn_solid_number number)
+static tn_expression *number_of(tn_parsing *parse, tn_solid_number number)
 {
-    return tn_expression_number(parse->arena, number.span, tn_growth_number(parse, number.span).value);
+    return tn_expression_number(parse->arena, number.span, tn_parsing_number(parse, number.span).value);
 }
 
-static tn_expression *of_two(tn_growth_parse *parse, tn_opcode op, tn_span span, tn_expression *a, tn_expression *b)
+static tn_expression *of_two(tn_parsing *parse, tn_opcode op, tn_span span, tn_expression *a, tn_expression *b)
 {
     return tn_expression_of(parse->arena, op, span, a, b, NULL);
 }
 
-static void end_design(tn_growth_parse *parse, tn_solid_design *design, tn_solid_text name, tn_solid_text doc, tn_solid_text base, tn_span span)
+static void end_design(tn_parsing *parse, tn_solid_design *design, tn_solid_text name, tn_solid_text doc, tn_solid_text base, tn_span span)
 {
     if (!design)
         return;
@@ -394,7 +394,7 @@ static bool begins_statement(yysymbol_kind_t kind)
     }
 }
 
-static int yyreport_syntax_error(const yypcontext_t *context, tn_growth_parse *parse, void *scanner)
+static int yyreport_syntax_error(const yypcontext_t *context, tn_parsing *parse, void *scanner)
 {
     (void)scanner;
     enum { MOST = 64 };
@@ -412,13 +412,13 @@ static int yyreport_syntax_error(const yypcontext_t *context, tn_growth_parse *p
     for (int i = 0; i < count; i++)
         if (!ends || !begins_statement(kinds[i]))
             expected[taken++] = yysymbol_name(kinds[i]);
-    tn_growth_syntax_error(parse, *yypcontext_location(context), found == YYSYMBOL_YYEMPTY ? "this" : yysymbol_name(found), expected,
+    tn_parsing_syntax_error(parse, *yypcontext_location(context), found == YYSYMBOL_YYEMPTY ? "this" : yysymbol_name(found), expected,
                            (size_t)taken, outside ? "a file has designs, and everything else stands in one: `solid table { ... }`"
                                                   : likely_fix(found, YYTRANSLATE(parse->token_before)));
     return 0;
 }
 
-static void tn_solid_error(const tn_span *span, tn_growth_parse *parse, void *scanner, const char *message)
+static void tn_solid_error(const tn_span *span, tn_parsing *parse, void *scanner, const char *message)
 {
     (void)scanner;
     (void)message;
@@ -429,10 +429,10 @@ tn_solid_file *tn_parse_solid(tn_arena *arena, tn_diagnostics *diagnostics, uint
 {
     tn_solid_file *result = TN_NEW(arena, tn_solid_file);
     const tn_source *source = &diagnostics->sources->files[file];
-    tn_growth_parse parse = {.arena = arena, .diagnostics = diagnostics, .text = source->text, .size = source->size, .file = file, .result = result, .tokens = tokens};
+    tn_parsing parse = {.arena = arena, .diagnostics = diagnostics, .text = source->text, .size = source->size, .file = file, .result = result, .tokens = tokens};
     if (!result)
         return NULL;
-    if (!tn_growth_readable(&parse)) {
+    if (!tn_parsing_is_text(&parse)) {
         result->damaged = true;
         return result;
     }

@@ -14,7 +14,7 @@
 #include "compiler/study/study.h"
 }
 
-%parse-param {tn_growth_parse *parse} {void *scanner}
+%parse-param {tn_parsing *parse} {void *scanner}
 %lex-param {void *scanner}
 
 %code {
@@ -25,14 +25,14 @@
                      : (tn_span){YYRHSLOC(RHS, 0).file, YYRHSLOC(RHS, 0).end, YYRHSLOC(RHS, 0).end})
 
 int tn_study_lex(TN_STUDY_STYPE *value, tn_span *span, void *scanner);
-static void tn_study_error(const tn_span *span, tn_growth_parse *parse, void *scanner, const char *message);
-static tn_study_item *with_text(tn_growth_parse *parse, tn_study_kind kind, tn_span span, tn_study_text text);
-static tn_study_item *with_number(tn_growth_parse *parse, tn_study_kind kind, tn_span span, tn_decimal number);
-static tn_study_item *with_vectors(tn_growth_parse *parse, tn_study_kind kind, tn_span span, tn_study_vector a, tn_study_vector b);
+static void tn_study_error(const tn_span *span, tn_parsing *parse, void *scanner, const char *message);
+static tn_study_item *with_text(tn_parsing *parse, tn_study_kind kind, tn_span span, tn_study_text text);
+static tn_study_item *with_number(tn_parsing *parse, tn_study_kind kind, tn_span span, tn_decimal number);
+static tn_study_item *with_vectors(tn_parsing *parse, tn_study_kind kind, tn_span span, tn_study_vector a, tn_study_vector b);
 static tn_study_item *with_which(tn_study_item *item, uint32_t which);
 static tn_study_item *with_parts(tn_study_item *item, tn_study_part *parts, tn_span span);
 static tn_study_item *with_expression(tn_study_item *item, tn_expression *expression);
-static tn_expression *of_two(tn_growth_parse *parse, tn_opcode op, tn_span span, tn_expression *a, tn_expression *b);
+static tn_expression *of_two(tn_parsing *parse, tn_opcode op, tn_span span, tn_expression *a, tn_expression *b);
 static tn_study_vector vector(tn_span span, tn_decimal x, tn_decimal y, tn_decimal z);
 static tn_study_vector same(tn_decimal n);
 }
@@ -216,7 +216,7 @@ three
 
 %%
 
-static tn_study_item *with_text(tn_growth_parse *parse, tn_study_kind kind, tn_span span, tn_study_text text)
+static tn_study_item *with_text(tn_parsing *parse, tn_study_kind kind, tn_span span, tn_study_text text)
 {
     tn_study_item *item = tn_study_item_new(parse, kind, span);
     if (item) {
@@ -226,7 +226,7 @@ static tn_study_item *with_text(tn_growth_parse *parse, tn_study_kind kind, tn_s
     return item;
 }
 
-static tn_study_item *with_number(tn_growth_parse *parse, tn_study_kind kind, tn_span span, tn_decimal number)
+static tn_study_item *with_number(tn_parsing *parse, tn_study_kind kind, tn_span span, tn_decimal number)
 {
     tn_study_item *item = tn_study_item_new(parse, kind, span);
     if (item)
@@ -234,7 +234,7 @@ static tn_study_item *with_number(tn_growth_parse *parse, tn_study_kind kind, tn
     return item;
 }
 
-static tn_study_item *with_vectors(tn_growth_parse *parse, tn_study_kind kind, tn_span span, tn_study_vector a, tn_study_vector b)
+static tn_study_item *with_vectors(tn_parsing *parse, tn_study_kind kind, tn_span span, tn_study_vector a, tn_study_vector b)
 {
     tn_study_item *item = tn_study_item_new(parse, kind, span);
     if (item) {
@@ -267,7 +267,7 @@ static tn_study_item *with_expression(tn_study_item *item, tn_expression *expres
     return item;
 }
 
-static tn_expression *of_two(tn_growth_parse *parse, tn_opcode op, tn_span span, tn_expression *a, tn_expression *b)
+static tn_expression *of_two(tn_parsing *parse, tn_opcode op, tn_span span, tn_expression *a, tn_expression *b)
 {
     return tn_expression_of(parse->arena, op, span, a, b, NULL);
 }
@@ -282,7 +282,7 @@ static tn_study_vector same(tn_decimal n)
     return (tn_study_vector){n.value, n.value, n.value, n.span};
 }
 
-static const char *likely_fix(const tn_growth_parse *parse, yysymbol_kind_t found, yysymbol_kind_t before,
+static const char *likely_fix(const tn_parsing *parse, yysymbol_kind_t found, yysymbol_kind_t before,
                               yysymbol_kind_t first_expected)
 {
     switch (before) {
@@ -339,7 +339,7 @@ static const char *likely_fix(const tn_growth_parse *parse, yysymbol_kind_t foun
     return "a statement starts with a word such as `rules`, `steps`, `scale`, `attractor`, `boundary`, `fitness` or `require`";
 }
 
-static int yyreport_syntax_error(const yypcontext_t *context, tn_growth_parse *parse, void *scanner)
+static int yyreport_syntax_error(const yypcontext_t *context, tn_parsing *parse, void *scanner)
 {
     (void)scanner;
     enum { MOST = 64 };
@@ -350,12 +350,12 @@ static int yyreport_syntax_error(const yypcontext_t *context, tn_growth_parse *p
         return count;
     for (int i = 0; i < count; i++)
         expected[i] = yysymbol_name(kinds[i]);
-    tn_growth_syntax_error(parse, *yypcontext_location(context), found == YYSYMBOL_YYEMPTY ? "this" : yysymbol_name(found), expected,
+    tn_parsing_syntax_error(parse, *yypcontext_location(context), found == YYSYMBOL_YYEMPTY ? "this" : yysymbol_name(found), expected,
                            (size_t)count, likely_fix(parse, found, YYTRANSLATE(parse->token_before), count == 1 || count == 2 ? kinds[0] : YYSYMBOL_YYEMPTY));
     return 0;
 }
 
-static void tn_study_error(const tn_span *span, tn_growth_parse *parse, void *scanner, const char *message)
+static void tn_study_error(const tn_span *span, tn_parsing *parse, void *scanner, const char *message)
 {
     (void)scanner;
     (void)message;
@@ -366,10 +366,10 @@ tn_study_file *tn_parse_study(tn_arena *arena, tn_diagnostics *diagnostics, uint
 {
     tn_study_file *result = TN_NEW(arena, tn_study_file);
     const tn_source *source = &diagnostics->sources->files[file];
-    tn_growth_parse parse = {.arena = arena, .diagnostics = diagnostics, .text = source->text, .size = source->size, .file = file, .result = result, .tokens = tokens};
+    tn_parsing parse = {.arena = arena, .diagnostics = diagnostics, .text = source->text, .size = source->size, .file = file, .result = result, .tokens = tokens};
     if (!result)
         return NULL;
-    if (!tn_growth_readable(&parse)) {
+    if (!tn_parsing_is_text(&parse)) {
         result->damaged = true;
         return result;
     }

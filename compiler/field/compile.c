@@ -11,7 +11,7 @@ static bool field_heads(const char *text, size_t size);
 
 /* ---- makes the syntax tree of .field files: what the parser calls */
 
-tn_field_parameters tn_field_parameter_add(tn_growth_parse *parse, tn_field_parameters list, tn_field_text name)
+tn_field_parameters tn_field_parameter_add(tn_parsing *parse, tn_field_parameters list, tn_field_text name)
 {
     tn_field_parameter *parameter = TN_NEW(parse->arena, tn_field_parameter);
     if (parameter)
@@ -21,7 +21,7 @@ tn_field_parameters tn_field_parameter_add(tn_growth_parse *parse, tn_field_para
     return list;
 }
 
-void tn_field_define(tn_growth_parse *parse, tn_field_statement kind, tn_span span, tn_field_text name, const char *doc,
+void tn_field_define(tn_parsing *parse, tn_field_statement kind, tn_span span, tn_field_text name, const char *doc,
                      tn_field_parameters parameters, tn_expression *body)
 {
     tn_field_file *file = parse->result;
@@ -33,7 +33,7 @@ void tn_field_define(tn_growth_parse *parse, tn_field_statement kind, tn_span sp
     TN_CHAIN(file, definition);
 }
 
-void tn_field_add_use(tn_growth_parse *parse, tn_field_text path)
+void tn_field_add_use(tn_parsing *parse, tn_field_text path)
 {
     tn_field_file *file = parse->result;
     tn_field_use *use = TN_NEW(parse->arena, tn_field_use);
@@ -44,7 +44,7 @@ void tn_field_add_use(tn_growth_parse *parse, tn_field_text path)
     file->use_count++;
 }
 
-void tn_field_set(tn_growth_parse *parse, tn_field_setting setting)
+void tn_field_set(tn_parsing *parse, tn_field_setting setting)
 {
     static const char *const words[] = {"box", "grid", "unit"};
     tn_field_file *file = parse->result;
@@ -63,7 +63,7 @@ void tn_field_set(tn_growth_parse *parse, tn_field_setting setting)
 }
 
 /* A file's name without folder and extension, where that can be a name; else "surface". */
-static const char *stem(tn_growth_parse *parse)
+static const char *stem(tn_parsing *parse)
 {
     const char *path = parse->diagnostics->sources->files[parse->file].path, *slash = strrchr(path, '/');
     const char *name = slash ? slash + 1 : path;
@@ -75,7 +75,7 @@ static const char *stem(tn_growth_parse *parse)
     return tn_arena_copy(parse->arena, name, size);
 }
 
-void tn_field_add_bare(tn_growth_parse *parse, tn_expression *body)
+void tn_field_add_bare(tn_parsing *parse, tn_expression *body)
 {
     if (body)
         tn_field_define(parse, TN_FIELD_SURFACE, body->span, (tn_field_text){stem(parse), body->span}, NULL,

@@ -5,6 +5,7 @@
 #include "compiler/common/diagnostic.h"
 #include "compiler/common/import.h"
 #include "compiler/field/field.h"
+#include "runtime/module/code.h"
 #include "runtime/number/interval.h"
 #include "runtime/number/run.h"
 

@@ -9,9 +9,9 @@
 #include "compiler/common/expression.h"
 #include "compiler/common/import.h"
 #include "compiler/common/layout.h"
+#include "compiler/common/parsing.h"
 #include "compiler/common/token.h"
 #include "compiler/common/words.h"
-#include "compiler/hemls/hemls.h"
 #include "runtime/base/hash_table.h"
 
 typedef enum tn_field_statement { TN_FIELD_LET, TN_FIELD_FUNCTION, TN_FIELD_SURFACE } tn_field_statement;
@@ -77,20 +77,20 @@ typedef struct tn_field_file {
     bool damaged;
 } tn_field_file;
 
-/* Parses the source as a .field file; as tn_parse_hemls. */
+/* Parses the source as a .field file. NULL if out of memory; errors are in the diagnostics. */
 tn_field_file *tn_parse_field(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, tn_tokens *tokens);
 
 /* The lexer, for its parser: NULL if out of memory. */
-void *tn_field_lexer_new(tn_growth_parse *parse);
+void *tn_field_lexer_new(tn_parsing *parse);
 void tn_field_lexer_free(void *scanner);
 
 /* Constructors; out of memory is the arena's to remember. */
-tn_field_parameters tn_field_parameter_add(tn_growth_parse *parse, tn_field_parameters list, tn_field_text name);
-void tn_field_define(tn_growth_parse *parse, tn_field_statement kind, tn_span span, tn_field_text name, const char *doc,
+tn_field_parameters tn_field_parameter_add(tn_parsing *parse, tn_field_parameters list, tn_field_text name);
+void tn_field_define(tn_parsing *parse, tn_field_statement kind, tn_span span, tn_field_text name, const char *doc,
                      tn_field_parameters parameters, tn_expression *body);
-void tn_field_add_use(tn_growth_parse *parse, tn_field_text path);
-void tn_field_set(tn_growth_parse *parse, tn_field_setting setting);
-void tn_field_add_bare(tn_growth_parse *parse, tn_expression *body);
+void tn_field_add_use(tn_parsing *parse, tn_field_text path);
+void tn_field_set(tn_parsing *parse, tn_field_setting setting);
+void tn_field_add_bare(tn_parsing *parse, tn_expression *body);
 
 /* The name of the function that places a surface elsewhere: no other can be called so, being a word of the language. */
 #define TN_FIELD_AT_NAME "at"

@@ -10,7 +10,7 @@
 #include "compiler/common/arena.h"
 #include "compiler/common/diagnostic.h"
 #include "compiler/common/layout.h"
-#include "compiler/common/lexical.h"
+#include "compiler/common/parsing.h"
 #include "compiler/common/token.h"
 #include "compiler/common/words.h"
 #include "runtime/growth/model/system.h"
@@ -87,75 +87,22 @@ typedef struct tn_hemls_file {
     bool damaged; /* lines are missing because of errors already reported */
 } tn_hemls_file;
 
-/* A number as the lexers of growth read it; `whole` is that of tn_growth_whole. */
-typedef struct tn_decimal {
-    double value;
-    tn_span span;
-    uint64_t whole;
-} tn_decimal;
-
-/* One run of a parser of growth notations over one source. */
-typedef struct tn_growth_parse {
-    tn_arena *arena;
-    tn_diagnostics *diagnostics;
-    const char *text;
-    size_t size;
-    uint32_t file;
-    uint32_t offset;      /* of the next byte */
-    uint32_t token_start; /* of a token that is read in pieces */
-    uint32_t stray_end;   /* where the last stray character ended: a run of them is reported once */
-    int last_token, token_before;
-    const char *meant; /* what an unknown word was probably meant to be, or NULL */
-    const char *named; /* the same of the last name, where the lexer remembers it; or NULL */
-    tn_span name_span;
-    bool evolves;      /* the last unknown word is a setting of an evolution */
-    bool asks;         /* of a .kit text: it is conditions alone */
-    bool reported;     /* the line at hand was complained of already */
-    bool damaged;      /* something of the file is missing because of errors already reported */
-    void *result;      /* the file of the notation, such as a tn_hemls_file */
-    tn_tokens *tokens; /* where the lexer leaves what it read, or NULL */
-    tn_lexer_pool pool;
-} tn_growth_parse;
-
-/* The lexers, for their parsers: NULL if out of memory. */
-void *tn_hemls_lexer_new(tn_growth_parse *parse);
+/* The lexer, for its parser: NULL if out of memory. */
+void *tn_hemls_lexer_new(tn_parsing *parse);
 void tn_hemls_lexer_free(void *scanner);
-void *tn_study_lexer_new(tn_growth_parse *parse);
-void tn_study_lexer_free(void *scanner);
 
 /* Parses the source as a .hemls file. NULL if out of memory; errors are in the diagnostics. Its tokens go to
  * `tokens` where that is not NULL. */
 tn_hemls_file *tn_parse_hemls(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, tn_tokens *tokens);
 
 /* Constructors; NULL if out of memory. */
-tn_hemls_symbol *tn_hemls_symbol_new(tn_growth_parse *parse, tn_hemls_kind kind, tn_span span);
+tn_hemls_symbol *tn_hemls_symbol_new(tn_parsing *parse, tn_hemls_kind kind, tn_span span);
 tn_hemls_symbols tn_hemls_symbols_add(tn_hemls_symbols list, tn_hemls_symbol *symbol);
-tn_hemls_alternative *tn_hemls_alternative_new(tn_growth_parse *parse, tn_span span, tn_hemls_symbols symbols,
+tn_hemls_alternative *tn_hemls_alternative_new(tn_parsing *parse, tn_span span, tn_hemls_symbols symbols,
                                                tn_hemls_choice choice);
 tn_hemls_alternatives tn_hemls_alternatives_add(tn_hemls_alternatives list, tn_hemls_alternative *one);
-tn_hemls_line *tn_hemls_line_new(tn_growth_parse *parse, tn_hemls_line_kind kind, tn_span span);
-void tn_hemls_add_line(tn_growth_parse *parse, tn_hemls_line *line);
-
-/* ---- what the lexers of growth share */
-
-/* Is the source text at all (E0004)? */
-bool tn_growth_readable(tn_growth_parse *parse);
-
-/* Moves on to a token of `size` bytes; its place in *span. */
-void tn_growth_place(tn_growth_parse *parse, tn_span *span, size_t size);
-
-/* A decimal number; an error (E0005) if it is too large. */
-tn_decimal tn_growth_number(tn_growth_parse *parse, tn_span span);
-
-/* A whole number of 64 bits, exactly; the value is -1 where it is none. */
-tn_decimal tn_growth_whole(tn_growth_parse *parse, tn_span span);
-
-/* Reports a character that no token starts with. */
-void tn_growth_stray(tn_growth_parse *parse, tn_span span, const char *help);
-
-/* Reports E0001: what was found, what could have stood there. */
-void tn_growth_syntax_error(tn_growth_parse *parse, tn_span span, const char *found, const char *const *expected,
-                            size_t count, const char *help);
+tn_hemls_line *tn_hemls_line_new(tn_parsing *parse, tn_hemls_line_kind kind, tn_span span);
+void tn_hemls_add_line(tn_parsing *parse, tn_hemls_line *line);
 
 /* ---- meaning */
 

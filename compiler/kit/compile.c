@@ -7,7 +7,7 @@
 
 /* ---- makes the syntax tree of .kit files: what the parser calls */
 
-tn_kit_node *tn_kit_node_new(tn_growth_parse *parse, tn_kit_kind kind, tn_span span, tn_kit_text name)
+tn_kit_node *tn_kit_node_new(tn_parsing *parse, tn_kit_kind kind, tn_span span, tn_kit_text name)
 {
     tn_kit_node *node = TN_NEW(parse->arena, tn_kit_node);
     if (node) {
@@ -25,7 +25,7 @@ tn_kit_nodes tn_kit_nodes_add(tn_kit_nodes list, tn_kit_node *node)
     return list;
 }
 
-tn_kit_node *tn_kit_space_of(tn_growth_parse *parse, tn_kit_kind kind, tn_span span, tn_kit_node *a, tn_kit_node *b)
+tn_kit_node *tn_kit_space_of(tn_parsing *parse, tn_kit_kind kind, tn_span span, tn_kit_node *a, tn_kit_node *b)
 {
     tn_kit_node *node = tn_kit_node_new(parse, kind, span, (tn_kit_text){0});
     if (!node || !a)
@@ -35,13 +35,13 @@ tn_kit_node *tn_kit_space_of(tn_growth_parse *parse, tn_kit_kind kind, tn_span s
     return node;
 }
 
-void tn_kit_add(tn_growth_parse *parse, tn_kit_node *node)
+void tn_kit_add(tn_parsing *parse, tn_kit_node *node)
 {
     tn_kit_file *file = parse->result;
     TN_CHAIN(file, node);
 }
 
-void tn_kit_add_use(tn_growth_parse *parse, tn_kit_text path)
+void tn_kit_add_use(tn_parsing *parse, tn_kit_text path)
 {
     tn_kit_file *file = parse->result;
     tn_kit_use *use = TN_NEW(parse->arena, tn_kit_use);

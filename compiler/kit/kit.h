@@ -8,9 +8,9 @@
 #include "compiler/common/expression.h"
 #include "compiler/common/import.h"
 #include "compiler/common/names.h"
+#include "compiler/common/parsing.h"
 #include "compiler/common/token.h"
 #include "compiler/common/words.h"
-#include "compiler/hemls/hemls.h"
 #include "runtime/place/model/frame.h"
 #include "runtime/place/model/terms.h"
 #include "runtime/place/part_file.h"
@@ -125,15 +125,15 @@ tn_kit_file *tn_parse_kit(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t
 /* The same for conditions alone, which become a test without a name. */
 tn_kit_file *tn_parse_kit_conditions(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file);
 
-void *tn_kit_lexer_new(tn_growth_parse *parse);
+void *tn_kit_lexer_new(tn_parsing *parse);
 void tn_kit_lexer_free(void *scanner);
 
 /* Constructors. */
-tn_kit_node *tn_kit_node_new(tn_growth_parse *parse, tn_kit_kind kind, tn_span span, tn_kit_text name);
+tn_kit_node *tn_kit_node_new(tn_parsing *parse, tn_kit_kind kind, tn_span span, tn_kit_text name);
 tn_kit_nodes tn_kit_nodes_add(tn_kit_nodes list, tn_kit_node *node);
-tn_kit_node *tn_kit_space_of(tn_growth_parse *parse, tn_kit_kind kind, tn_span span, tn_kit_node *a, tn_kit_node *b);
-void tn_kit_add(tn_growth_parse *parse, tn_kit_node *node);
-void tn_kit_add_use(tn_growth_parse *parse, tn_kit_text path);
+tn_kit_node *tn_kit_space_of(tn_parsing *parse, tn_kit_kind kind, tn_span span, tn_kit_node *a, tn_kit_node *b);
+void tn_kit_add(tn_parsing *parse, tn_kit_node *node);
+void tn_kit_add_use(tn_parsing *parse, tn_kit_text path);
 
 static inline bool tn_kit_given(const tn_kit_length *length)
 {

@@ -10,7 +10,7 @@
 
 /* ---- makes the syntax tree of .solid files: what the parser calls */
 
-tn_solid_item *tn_solid_item_new(tn_growth_parse *parse, tn_solid_statement kind, tn_span span)
+tn_solid_item *tn_solid_item_new(tn_parsing *parse, tn_solid_statement kind, tn_span span)
 {
     tn_solid_item *item = TN_NEW(parse->arena, tn_solid_item);
     if (item) {
@@ -20,7 +20,7 @@ tn_solid_item *tn_solid_item_new(tn_growth_parse *parse, tn_solid_statement kind
     return item;
 }
 
-tn_solid_part *tn_solid_part_new(tn_growth_parse *parse, tn_solid_part_kind kind, tn_span span, tn_solid_part *before)
+tn_solid_part *tn_solid_part_new(tn_parsing *parse, tn_solid_part_kind kind, tn_span span, tn_solid_part *before)
 {
     tn_solid_part *part = TN_NEW(parse->arena, tn_solid_part);
     if (part) {
@@ -31,7 +31,7 @@ tn_solid_part *tn_solid_part_new(tn_growth_parse *parse, tn_solid_part_kind kind
     return part;
 }
 
-tn_solid_entry *tn_solid_entry_new(tn_growth_parse *parse, tn_span span)
+tn_solid_entry *tn_solid_entry_new(tn_parsing *parse, tn_span span)
 {
     tn_solid_entry *entry = TN_NEW(parse->arena, tn_solid_entry);
     if (entry)
@@ -45,7 +45,7 @@ tn_solid_entries tn_solid_entries_add(tn_solid_entries list, tn_solid_entry *ent
     return list;
 }
 
-tn_solid_design *tn_solid_design_new(tn_growth_parse *parse)
+tn_solid_design *tn_solid_design_new(tn_parsing *parse)
 {
     return TN_NEW(parse->arena, tn_solid_design);
 }
@@ -56,13 +56,13 @@ void tn_solid_add_item(tn_solid_design *design, tn_solid_item *item)
         TN_CHAIN(design, item);
 }
 
-void tn_solid_add_design(tn_growth_parse *parse, tn_solid_design *design)
+void tn_solid_add_design(tn_parsing *parse, tn_solid_design *design)
 {
     tn_solid_file *file = parse->result;
     TN_CHAIN(file, design);
 }
 
-void tn_solid_add_use(tn_growth_parse *parse, tn_solid_text path)
+void tn_solid_add_use(tn_parsing *parse, tn_solid_text path)
 {
     tn_solid_file *file = parse->result;
     tn_solid_use *use = TN_NEW(parse->arena, tn_solid_use);

@@ -8,9 +8,9 @@
 
 #include "compiler/common/expression.h"
 #include "compiler/common/import.h"
+#include "compiler/common/parsing.h"
 #include "compiler/common/token.h"
 #include "compiler/common/words.h"
-#include "compiler/hemls/hemls.h"
 #include "runtime/solid/exact.h"
 #include "runtime/solid/measured.h"
 
@@ -116,21 +116,21 @@ typedef struct tn_solid_file {
     bool damaged;
 } tn_solid_file;
 
-/* Parses the source as a .solid file; as tn_parse_hemls. */
+/* Parses the source as a .solid file. NULL if out of memory; errors are in the diagnostics. */
 tn_solid_file *tn_parse_solid(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, tn_tokens *tokens);
 
-void *tn_solid_lexer_new(tn_growth_parse *parse);
+void *tn_solid_lexer_new(tn_parsing *parse);
 void tn_solid_lexer_free(void *scanner);
 
 /* Constructors; out of memory is the arena's to remember. */
-tn_solid_item *tn_solid_item_new(tn_growth_parse *parse, tn_solid_statement kind, tn_span span);
-tn_solid_part *tn_solid_part_new(tn_growth_parse *parse, tn_solid_part_kind kind, tn_span span, tn_solid_part *before);
-tn_solid_entry *tn_solid_entry_new(tn_growth_parse *parse, tn_span span);
+tn_solid_item *tn_solid_item_new(tn_parsing *parse, tn_solid_statement kind, tn_span span);
+tn_solid_part *tn_solid_part_new(tn_parsing *parse, tn_solid_part_kind kind, tn_span span, tn_solid_part *before);
+tn_solid_entry *tn_solid_entry_new(tn_parsing *parse, tn_span span);
 tn_solid_entries tn_solid_entries_add(tn_solid_entries list, tn_solid_entry *entry);
-tn_solid_design *tn_solid_design_new(tn_growth_parse *parse);
+tn_solid_design *tn_solid_design_new(tn_parsing *parse);
 void tn_solid_add_item(tn_solid_design *design, tn_solid_item *item);
-void tn_solid_add_design(tn_growth_parse *parse, tn_solid_design *design);
-void tn_solid_add_use(tn_growth_parse *parse, tn_solid_text path);
+void tn_solid_add_design(tn_parsing *parse, tn_solid_design *design);
+void tn_solid_add_use(tn_parsing *parse, tn_solid_text path);
 
 /* ---- meaning */
 

@@ -10,7 +10,7 @@
 
 /* ---- makes the syntax tree of .study files: what the parser calls */
 
-tn_study_item *tn_study_item_new(tn_growth_parse *parse, tn_study_kind kind, tn_span span)
+tn_study_item *tn_study_item_new(tn_parsing *parse, tn_study_kind kind, tn_span span)
 {
     tn_study_item *item = TN_NEW(parse->arena, tn_study_item);
     if (item) {
@@ -20,7 +20,7 @@ tn_study_item *tn_study_item_new(tn_growth_parse *parse, tn_study_kind kind, tn_
     return item;
 }
 
-tn_study_part *tn_study_part_new(tn_growth_parse *parse, tn_study_part_kind kind, tn_span span, double value,
+tn_study_part *tn_study_part_new(tn_parsing *parse, tn_study_part_kind kind, tn_span span, double value,
                                  tn_study_part *before)
 {
     tn_study_part *part = TN_NEW(parse->arena, tn_study_part);
@@ -33,7 +33,7 @@ tn_study_part *tn_study_part_new(tn_growth_parse *parse, tn_study_part_kind kind
     return part;
 }
 
-void tn_study_add(tn_growth_parse *parse, tn_study_item *item)
+void tn_study_add(tn_parsing *parse, tn_study_item *item)
 {
     tn_study_file *file = parse->result;
     TN_CHAIN(file, item);

@@ -8,6 +8,7 @@
 
 #include "compiler/common/expression.h"
 #include "compiler/common/import.h"
+#include "compiler/common/parsing.h"
 #include "compiler/common/token.h"
 #include "compiler/common/words.h"
 #include "compiler/hemls/hemls.h"
@@ -87,7 +88,12 @@ typedef struct tn_study_text {
     tn_span span;
 } tn_study_text;
 
-/* Parses the source as a .study file without evolution; as tn_parse_hemls. */
+/* The lexer, for its parser: NULL if out of memory. */
+void *tn_study_lexer_new(tn_parsing *parse);
+void tn_study_lexer_free(void *scanner);
+
+/* Parses the source as a .study file without evolution. NULL if out of memory; errors are in the
+ * diagnostics. */
 tn_study_file *tn_parse_study(tn_arena *arena, tn_diagnostics *diagnostics, uint32_t file, tn_tokens *tokens);
 
 /* Does a statement start with this word? */
@@ -97,10 +103,10 @@ bool tn_study_heads(const char *text, size_t size);
 bool tn_study_has_word(const char *text, size_t size);
 
 /* Constructors; out of memory is the arena's to remember. */
-tn_study_item *tn_study_item_new(tn_growth_parse *parse, tn_study_kind kind, tn_span span);
-tn_study_part *tn_study_part_new(tn_growth_parse *parse, tn_study_part_kind kind, tn_span span, double value,
+tn_study_item *tn_study_item_new(tn_parsing *parse, tn_study_kind kind, tn_span span);
+tn_study_part *tn_study_part_new(tn_parsing *parse, tn_study_part_kind kind, tn_span span, double value,
                                  tn_study_part *before);
-void tn_study_add(tn_growth_parse *parse, tn_study_item *item);
+void tn_study_add(tn_parsing *parse, tn_study_item *item);
 
 typedef struct tn_checked_study {
     const char *name;
