@@ -14,6 +14,8 @@ typedef struct tn_instruction {
     int64_t second;
 } tn_instruction;
 
+#define TN_OPERANDS_MAX 3 /* relations that an instruction takes from the stack */
+
 /* Into how many stretches REPEATED may cut one. */
 #define TN_REPEATED_MAX 1000000u
 

@@ -48,7 +48,6 @@ tn_status tn_lower_marked(tn_lowering *lowering, uint32_t function, tn_dfa **out
 /* The automata (over the classes and the marker, see marked.h) of the relations that the instruction at `offset`, one
  * of the function's that makes a relation, takes from the stack: parts has room for TN_OPERANDS_MAX. The caller frees
  * them. */
-#define TN_OPERANDS_MAX 3
 tn_status tn_lower_operands(tn_lowering *lowering, uint32_t function, uint32_t offset, tn_dfa **parts, size_t *count,
                             tn_error *error);
 
