@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "ask/house/numbered.h"
+#include "runtime/house/house.h"
 
 tn_status tn_finds_begin(tn_finds *finds, tn_error *error)
 {

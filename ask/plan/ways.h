@@ -3,8 +3,9 @@
 #define TARTAN_ASK_PLAN_WAYS_H
 
 #include "ask/session/session.h"
-#include "runtime/plan/match/vm.h"
 #include "runtime/plan/ways/derivation.h"
+
+typedef struct tn_plan_vm tn_plan_vm; /* runtime/plan/match/vm.h */
 
 /* Makes ready to ask about one plan after another. Close it in any case. */
 typedef struct tn_ways_of_plans {

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/plan/best.h"
 #include "ask/session/questions.h"
 #include "cli/common/job.h"
 #include "cli/common/options.h"

@@ -5,6 +5,7 @@
 
 #include "ask/explain/explain.h"
 #include "ask/form/draw.h"
+#include "ask/house/numbered.h"
 #include "ask/session/questions.h"
 #include "ask/session/requests.h"
 #include "cli/common/job.h"

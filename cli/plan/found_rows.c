@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "ask/house/numbered.h"
 #include "cli/common/interrupt.h"
 #include "driver/parquet/parquet.h"
 #include "driver/plan/provenance.h"

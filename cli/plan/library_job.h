@@ -2,8 +2,7 @@
 #ifndef TARTAN_CLI_PLAN_LIBRARY_JOB_H
 #define TARTAN_CLI_PLAN_LIBRARY_JOB_H
 
-#include "ask/house/numbered.h"
-#include "ask/plan/best.h"
+#include "ask/plan/found.h"
 #include "ask/session/requests.h"
 #include "cli/common/job.h"
 #include "cli/common/options.h"

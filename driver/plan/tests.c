@@ -9,6 +9,7 @@
 #include "driver/open/open.h"
 #include "driver/plan/explain.h"
 #include "driver/plan/library.h"
+#include "runtime/plan/match/vm.h"
 #include "runtime/plan/measure/amount.h"
 #include "runtime/plan/measure/named.h"
 #include "runtime/plan/text/text.h"

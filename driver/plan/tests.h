@@ -5,7 +5,9 @@
 #include "compiler/plan/syntax/program.h"
 #include "driver/open/open.h"
 #include "runtime/module/module.h"
-#include "runtime/plan/match/vm.h"
+#include "runtime/plan/schema/schema.h"
+
+typedef struct tn_plan_vm tn_plan_vm; /* runtime/plan/match/vm.h */
 
 /* Whether a case of a test comes out, from what its rules say of the plan. */
 

@@ -10,8 +10,8 @@
 #include "runtime/house/measure/measure.h"
 #include "runtime/plan/match/lower.h"
 #include "runtime/plan/match/uses.h"
-#include "runtime/plan/match/vm.h"
 
+typedef struct tn_plan_vm tn_plan_vm;                   /* runtime/plan/match/vm.h */
 typedef struct tn_frontier tn_frontier;                 /* states.h */
 typedef struct tn_frontier_without tn_frontier_without; /* frontier.h, as is the next */
 typedef struct tn_frontier_trays tn_frontier_trays;

@@ -11,6 +11,7 @@
 #include "runtime/base/array.h"
 #include "runtime/house/frontier/frontier.h"
 #include "runtime/house/frontier/states.h"
+#include "runtime/plan/match/vm.h"
 
 /* ---- states */
 

@@ -6,6 +6,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/module/code.h"
+#include "runtime/plan/match/vm.h"
 
 #define CONFIRM_LENGTH_MAX (1u << 20)        /* of a plan that the reference engine is asked about */
 #define CONFIRM_WORK_MAX (UINT64_C(1) << 31) /* word operations, two seconds */

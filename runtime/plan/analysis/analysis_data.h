@@ -6,8 +6,9 @@
 #include "runtime/base/crew.h"
 #include "runtime/plan/analysis/analysis.h"
 #include "runtime/plan/match/lower.h"
-#include "runtime/plan/match/vm.h"
 #include "runtime/plan/schema/classes.h"
+
+typedef struct tn_plan_vm tn_plan_vm; /* runtime/plan/match/vm.h */
 
 /* A rule being analysed. */
 typedef struct tn_plan_analysed_rule {
@@ -75,8 +76,8 @@ tn_status tn_plan_analysis_give_up(tn_plan_analysis *analysis, uint32_t rule, ui
 /* Of the functions from `first` to before `end` marks those that the marked ones call, directly or not. */
 void tn_plan_analysis_mark_called(const tn_module *module, uint8_t *reached, uint32_t first, uint32_t end);
 
-/* *needs: does the function, or one that it calls, compare sums, ask what is mirrored or use itself? Its automaton may then need
- * the library's lengths. */
+/* *needs: does the function, or one that it calls, compare sums, ask what is mirrored or use itself? Its automaton may
+ * then need the library's lengths. */
 tn_status tn_plan_analysis_needs_length(const tn_module *module, uint32_t function, bool *needs, tn_error *error);
 
 /* The parts of the analysis, each in a file of its own. */

@@ -4,6 +4,7 @@
 
 #include "runtime/module/code.h"
 #include "runtime/plan/analysis/analysis_data.h"
+#include "runtime/plan/match/vm.h"
 
 /* A rule or a written-out clause: what stands between `begin` and `end` of its file. */
 typedef struct item {
