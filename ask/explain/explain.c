@@ -378,6 +378,9 @@ static tn_status set_clause(const tn_explained *explained, const tn_explained_ru
     to->drops = rule->drops;
     to->has_largest = largest != TN_NO_WHY;
     to->has_beginning = rule->beginning.known;
+    to->has_ways = rule->ways != NULL;
+    if (rule->ways)
+        mpz_set_str(to->ways, rule->ways, 10);
     tn_status status = set_tree(explained, &rule->why, 0, &to->why, error);
     if (status == TN_OK && to->has_beginning)
         status = set_beginning(explained, &rule->beginning, &to->beginning, error);

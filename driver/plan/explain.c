@@ -10,6 +10,7 @@
 #include "runtime/plan/measure/amount.h"
 #include "runtime/plan/picture/draw_explain.h"
 #include "runtime/plan/schema/sum.h"
+#include "runtime/plan/ways/plan_ways.h"
 
 /* ---- which parts of an explanation are shown */
 
@@ -615,6 +616,8 @@ bool tn_explained_rule_text(const tn_explained *explained, const tn_explained_ru
     write_tree(&w);
     write_largest(&w);
     write_beginning(&w, explained, &rule->beginning);
+    if (rule->ways)
+        w.ok &= tn_buffer_printf(out, "  in how many ways: %s\n", rule->ways);
     return w.ok;
 }
 
@@ -756,6 +759,27 @@ void tn_explained_preferred(const tn_explained *explained, mpq_t met, mpq_t all)
     mpq_clear(worth);
 }
 
+/* A limit leaves it open. */
+static tn_status find_ways(const tn_explained *explained, const tn_clause_record *clause, size_t max_length,
+                           tn_explained_rule *made, tn_error *error)
+{
+    tn_derivation derivation;
+    tn_plan_vm *vm = NULL;
+    mpz_t ways;
+    mpz_init(ways);
+    tn_status status = tn_derivation_read(explained->opened->module, clause->holds, &derivation, error);
+    if (status == TN_OK)
+        status = tn_plan_vm_new(explained->schema, max_length, &vm, error);
+    if (status == TN_OK)
+        status = tn_plan_ways(&derivation, vm, explained->trays, explained->length, ways, error);
+    if (status == TN_OK && !(made->ways = mpz_get_str(NULL, 10, ways)))
+        status = tn_fail_memory(error);
+    tn_plan_vm_free(vm);
+    tn_derivation_clear(&derivation);
+    mpz_clear(ways);
+    return status == TN_LIMIT ? TN_OK : status;
+}
+
 static tn_status explain_clause(tn_explained *explained, uint32_t i, size_t max_length, tn_error *error)
 {
     const tn_module *module = explained->opened->module;
@@ -773,6 +797,8 @@ static tn_status explain_clause(tn_explained *explained, uint32_t i, size_t max_
         status = tn_generated_beginning_find(explained->schema, clause->holds, explained->library->trays_min,
                                              explained->library->trays_max, explained->trays, explained->length,
                                              &made->beginning, error);
+    if (status == TN_OK && made->holds && clause->kind == TN_CLAUSE_GENERATE)
+        status = find_ways(explained, clause, max_length, made, error);
     return status;
 }
 
@@ -820,6 +846,7 @@ void tn_explained_clear(tn_explained *explained)
     for (size_t i = 0; i < explained->count; i++) {
         tn_explanation_clear(&explained->rules[i].why);
         tn_generated_beginning_clear(&explained->rules[i].beginning);
+        free(explained->rules[i].ways);
     }
     for (size_t i = 0; i < explained->preference_count; i++)
         tn_explanation_clear(&explained->preferences[i].why);

@@ -29,6 +29,7 @@ def plans_by_reference(subject):
     answered(lambda: weights_by_reference(subject, file, kept))
     answered(lambda: preferences_by_reference(subject, file, kept))
     answered(lambda: generated_by_reference(subject, file, kept))
+    answered(lambda: ways_by_reference(subject, file, kept))
     for rule in subject.rules():
         answered(lambda: rule_by_reference(subject, file, kept, rule))
     for measure in subject.measures() if kept else []:
@@ -89,6 +90,7 @@ def generated_by_reference(subject, file, kept):
             made = plan.trays in generated
             same("explain keeps", explained["kept"], plan.trays in those)
             same("explain says whether it is generated", (said["matches"], said["drops"]), (made, not made))
+            same("explain says in how many ways", said.get("ways"), str(file.ways(plan, subject.item.name)) if made else None)
             if not made:
                 dropped.append((line, said["name"]))
             if "beginning" in said:
@@ -105,6 +107,22 @@ def generated_by_reference(subject, file, kept):
     if run("check", "--no-analysis", tested)[0] == 0:           # else a plan line is none in a test
         passed, failed = outcomes(subject.path)
         same("dropped by what generates", outcomes(tested), (passed + len(dropped), failed))
+
+
+def ways_by_reference(subject, file, kept):
+    """In how many ways plans are derived: of all of them, and of some."""
+    numbers = [file.ways(plan, subject.item.name) for plan in kept]
+    found = subject.json("count", "--ways")
+    most = max(numbers, default=None)
+    same("ways", (int(found["plans"]), int(found["ways"])), (len(kept), sum(numbers)))
+    same("mean of ways", found["mean"] and Fraction(found["mean"]), Fraction(sum(numbers), len(kept)) if kept else None)
+    if found["distribution"] is not None:
+        same("plans by their ways", [[int(n) for n in row] for row in found["distribution"]], [list(row) for row in sorted(Counter(numbers).items())])
+        same("most ways", found["most"], most and str(most))
+    listed = [line.split("\t") for line in answer("enumerate", subject.path, "--library", subject.item.name, "--ways", "--limit", "200").splitlines()]
+    same("ways of each plan", [int(line[0]) for line in listed], numbers[:200])
+    if kept and found["first"] is not None and most in numbers[:200]:
+        same("first plan with the most ways", found["first"], listed[numbers.index(most)][1])
 
 
 def circles_by_reference(kind):

@@ -3,6 +3,7 @@
 It knows productions by their names. What it does not know (a production that came later, a rule of a file that is used,
 houses) raises Unknown, and that is then not asked of it."""
 import itertools
+import math
 import operator
 import re
 from fractions import Fraction
@@ -354,6 +355,13 @@ class Plan:
         e = core(e)
         return self.remember(SOMEWHERE.get(e.name, somewhere), "H", e, env, i, j)
 
+    def D(self, e, env, i, j):
+        """In how many ways the stretch is derived."""
+        e = core(e)
+        if not self.M(e, env, i, j):
+            return 0
+        return self.remember(WAYS[e.name], "D", e, env, i, j) if e.name in WAYS else 1
+
     def one(self, e, env, t):
         return self.M(e, env, t, t + 1)
 
@@ -586,14 +594,16 @@ def every_tray(plan, e, env, i, j):
     return all(not plan.one(e.children[2], env, t) or plan.one(e.children[4], env, t) for t in range(i, j))
 
 
+def bindings(plan, e, env):
+    """What a quantifier's names stand for, one after another."""
+    names = words(e.children[1])[::2]
+    field = e.children[3].text
+    values = plan.schema.fields[plan.schema.index(field)][2]
+    return [env.with_names((n, (field, v)) for n, v in zip(names, chosen)) for chosen in itertools.product(values, repeat=len(names))]
+
+
 def quantified(joined, which):
-    def matches(plan, e, env, i, j):
-        names = words(e.children[1])[::2]
-        field = e.children[3].text
-        values = plan.schema.fields[plan.schema.index(field)][2]
-        bindings = [env.with_names((n, (field, v)) for n, v in zip(names, chosen)) for chosen in itertools.product(values, repeat=len(names))]
-        return joined(getattr(plan, which)(e.children[5], b, i, j) for b in bindings)
-    return matches
+    return lambda plan, e, env, i, j: joined(getattr(plan, which)(e.children[5], b, i, j) for b in bindings(plan, e, env))
 
 
 def compared(plan, e, env, i, j):
@@ -726,6 +736,115 @@ for same in ("not: NOT not", P + "QUANTITY OPEN expression region COMMA conditio
     SOMEWHERE[same] = WHOLE[same]
 WHOLE_PLAN = P + "PLAN OPEN_BRACKET pattern CLOSE_BRACKET"
 SOMEWHERE[WHOLE_PLAN] = lambda plan, e, env, i, j: (i, j) == (0, plan.n) and plan.M(e, env, i, j)
+
+
+# ---- in how many ways
+
+def is_decided(plan, e, env):
+    """Before there is a plan, by what names are bound to and by params."""
+    e = core(e)
+    if e.name == "comparable: additive comparison additive":
+        return side_compared(plan, e) is not None or bool(bound_sides(plan, e, env))
+    if e.name == "implied: disjunction IMPLIES disjunction" or e.name.startswith(("ors: ", "ands: ", "not: ")):
+        return all(is_decided(plan, c, env) for c in e.children if c.children)
+    return False
+
+
+def sum_of_ways(plan, sides, i, j):
+    """What is decided to hold is all of an `or`."""
+    if any(is_decided(plan, e, env) and plan.M(e, env, i, j) for e, env in sides):
+        return 1
+    return sum(plan.D(e, env, i, j) for e, env in sides)
+
+
+def product_of_ways(plan, sides, i, j):
+    return math.prod(plan.D(e, env, i, j) for e, env in sides)
+
+
+def sides_of(e):
+    """Of an `or` or `and` of several, which the grammar nests to the left."""
+    e = core(e)
+    kind = e.name.split(":")[0]
+    if kind not in ("ors", "ands"):
+        return [e]
+    first = core(e.children[0])
+    return (sides_of(first) if first.name.split(":")[0] == kind and e.name.startswith(f"{kind}: {kind}") else [first]) + [e.children[2]]
+
+
+def joined_ways(how):
+    return lambda plan, e, env, i, j: how(plan, [(side, env) for side in sides_of(e)], i, j)
+
+
+def quantified_ways(how):
+    return lambda plan, e, env, i, j: how(plan, [(e.children[5], bound) for bound in bindings(plan, e, env)], i, j)
+
+
+def neighbour_ways(plan, e, env, i, j):
+    """Each part from the first on takes a stretch, and what is behind it the rest: that is looked at first, so that no rule is asked of
+    all of the stretch again."""
+    parts = [core(part) for part in find_all(e.child("parts"), "part")]
+    parts = [x for x in parts if x.name not in ("primary: BEGINNING", "primary: END")]        # M has seen to them
+
+    def rest(k, a, any_before):
+        if k == len(parts):
+            return int(a == j and any_before)
+        x = parts[k]
+        gap, optional = x.name == "part: ELLIPSIS", x.name == "primary: OPTIONAL OPEN expression CLOSE"
+        inner = x.children[2] if optional else x
+        absent = gap or optional or is_repeat(plan, x) and times(plan, x, env)[0] == 0
+        found = rest(k + 1, a, any_before) if absent else 0
+        for b in range(a + 1, j + 1):
+            behind = rest(k + 1, b, True)
+            found += behind and behind * (1 if gap else plan.D(inner, env, a, b))
+        return found
+    return rest(0, i, False)
+
+
+def repeat_ways(plan, e, env, i, j):
+    inner = find_all(e.child("call_args"), "call_arg")[0]
+    low, high = times(plan, e, env)
+
+    def rest(a, done):
+        if a == j:
+            return int(done >= max(low, 1))
+        if done == high:
+            return 0
+        found = 0
+        for b in range(a + 1, j + 1):
+            behind = rest(b, done + 1)
+            found += behind and behind * plan.D(inner, env, a, b)
+        return found
+    return rest(i, 0)
+
+
+def symmetric_ways(plan, e, env, i, j):
+    return plan.D(e.children[1], env, i, j) + plan.back.D(e.children[1], env, plan.n - j, plan.n - i)
+
+
+def named_ways(plan, e, env, i, j):
+    given = env.get(e.children[0].text)
+    body, inner = given if given is not None else (plan.file.rule(e.children[0].text)[1], Env())
+    return plan.D(body, inner, i, j)
+
+
+def called_ways(plan, e, env, i, j):
+    if is_repeat(plan, e):
+        return repeat_ways(plan, e, env, i, j)
+    if own_fields(plan, e, env) is not None:
+        return 1
+    params, body = plan.file.rule(e.children[0].text)
+    arguments = find_all(e.child("call_args"), "call_arg")
+    return plan.D(body, Env((name, plan.file.argument(plan, a, kind, env)) for (name, kind), a in zip(params, arguments)), i, j)
+
+
+WAYS = {
+    "ors: and OR and": joined_ways(sum_of_ways), "ors: ors OR and": joined_ways(sum_of_ways),
+    "ands: not AND not": joined_ways(product_of_ways), "ands: ands AND not": joined_ways(product_of_ways),
+    P + "NEIGHBOUR OPEN parts CLOSE": neighbour_ways, P + "SYMMETRIC primary": symmetric_ways,
+    P + "SOME names IN NAME OPEN expression CLOSE": quantified_ways(sum_of_ways),
+    P + "EVERY names IN NAME OPEN expression CLOSE": quantified_ways(product_of_ways),
+    P + "NAME": named_ways, P + "NAME OPEN call_args CLOSE": called_ways,
+}
 
 
 # ---- sums
@@ -975,6 +1094,11 @@ class File:
 
     def generates(self, plan, clause):
         return plan.M(clause.child("require").children[0], Env(), 0, plan.n)
+
+    def ways(self, plan, name):
+        """In how many ways the library makes the plan, which it keeps."""
+        clause = self.generate(name)
+        return plan.D(clause.child("require").children[0], Env(), 0, plan.n) if clause else 1
 
     def generate(self, name):
         """The clause that says what plans are made of, or None."""

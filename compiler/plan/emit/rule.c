@@ -85,6 +85,13 @@ static void emit_sum(tn_emit *emit, const tn_ast_expr *sum)
     tn_emit_op(emit, sum->node.span, TN_OP_SUM, field, condition_of(sum));
 }
 
+/* What the code joins by OR or CHAIN, and no author by `or` or `neighbour`, is derived in one way. */
+static void emit_once(tn_emit *emit, tn_span span)
+{
+    if (emit->derives)
+        tn_emit_op(emit, span, TN_OP_ONCE, 0, 0);
+}
+
 /* `a implies b` is `not a or b`. */
 static void emit_implies(tn_emit *emit, const tn_ast_expr *expr, void (*emit_part)(tn_emit *, const tn_ast_expr *))
 {
@@ -92,8 +99,8 @@ static void emit_implies(tn_emit *emit, const tn_ast_expr *expr, void (*emit_par
     tn_emit_op(emit, expr->node.span, TN_OP_NOT, 0, 0);
     emit_part(emit, (const tn_ast_expr *)expr->parts.last);
     tn_emit_op(emit, expr->node.span, TN_OP_OR, 0, 0);
-    if (emit->derives && emit_part == tn_emit_whole) /* of an `or` that is written, each side is a way */
-        tn_emit_op(emit, expr->node.span, TN_OP_ONCE, 0, 0);
+    if (emit_part == tn_emit_whole)
+        emit_once(emit, expr->node.span);
 }
 
 /* No single tray is `a` and not `b`. */
@@ -200,8 +207,11 @@ void tn_emit_whole(tn_emit *emit, const tn_ast_expr *expr)
         tn_emit_op(emit, span, TN_OP_NOT, 0, 0);
         break;
     case TN_EXPR_NEIGHBOUR:
+        emit_neighbour(emit, expr);
+        break;
     case TN_EXPR_PLAN:
         emit_neighbour(emit, expr);
+        emit_once(emit, span);
         break;
     case TN_EXPR_SYMMETRIC:
         if (expr->sides != TN_SIDES_MIRRORED)
