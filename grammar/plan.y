@@ -71,7 +71,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token MEASURE "`measure`" LET "`let`" NUMBER_FIELD "`number`" WHERE "`where`" MATCHES "`matches`" SOME "`some`" EVERY "`every`"
 %token IMPLIES "`implies`" GAP "`gap`" WITHIN "`within`" LEAST "`least`" BEFORE "`before`" AFTER "`after`" PLAN "`plan`" MIN "`min`" MAX "`max`" VALUE "`value`"
 %token ONE_EXPRESSION "an expression" ONE_PATTERN "an open plan" ONE_LITERAL "a plan" ONE_SETTING "the value of a param"
-%token PARAM "`param`" WITH "`with`"
+%token PARAM "`param`" WITH "`with`" ONTO "`onto`"
 %token PLUS "`+`" STAR "`*`" SLASH "`/`" ELLIPSIS "`...`" QUESTION "`?`"
 %token FORM "`form`" STOREY "`storey`" SPINE "`spine`" WALL "`wall`" PARTITION "`partition`" DECK "`deck`" ROOF "`roof`"
 %token SECTION "`section`" VOID "`void`" NO "`no`" FUNCTION "`function`" AT "`at`" CELL "`cell`"
@@ -659,6 +659,8 @@ library_head
     : library NAME doc using                    { $$ = (tn_ast_library){.name = $2, .doc = $3, .using = $4}; }
     | library NAME doc using FROM NAME          { $$ = (tn_ast_library){.name = $2, .doc = $3, .using = $4, .from = $6}; }
     | library NAME doc using FROM NAME IN NAME  { $$ = (tn_ast_library){.name = $2, .doc = $3, .using = $4, .from = $6, .in = $8}; }
+    | library NAME doc using FROM NAME ONTO NAME
+                                                { $$ = (tn_ast_library){.name = $2, .doc = $3, .using = $4, .from = $6, .onto = $8, .projected = tn_span_join(@5, @8)}; }
     ;
 
 clauses

@@ -366,6 +366,19 @@ static bool complete_with(lsp_cursor *c)
     return true;
 }
 
+/* `library NAME from ZONED onto`: the schemas that the library's is made from; all, if that is not known. */
+static void complete_onto(lsp_cursor *c)
+{
+    char *name = cursor_word(c, c->count - 2);
+    const tn_symbol *library = name ? tn_names_get(&c->analysis->index.names, name) : NULL;
+    const tn_symbol *schema = library ? library->schema : NULL;
+    free(name);
+    if (!schema)
+        offer_symbols(c, TN_SYMBOL_SCHEMA, KIND_STRUCT);
+    for (schema = schema ? schema->schema : NULL; schema; schema = schema->schema)
+        offer(c, schema->name, KIND_STRUCT, schema->doc, "1");
+}
+
 static void complete_top(lsp_cursor *c)
 {
     size_t last = c->count - 1;
@@ -373,6 +386,8 @@ static void complete_top(lsp_cursor *c)
         return;
     if (c->count > 0 && cursor_is(c, last, "using")) {
         offer_symbols(c, TN_SYMBOL_SCHEMA, KIND_STRUCT);
+    } else if (c->count > 1 && cursor_is(c, last, "onto") && cursor_is(c, c->item, "library")) {
+        complete_onto(c);
     } else if (c->count > 0 && cursor_is(c, last, "in") && cursor_is(c, c->item, "library")) {
         offer_symbols(c, TN_SYMBOL_FORM, KIND_STRUCT);
     } else if (c->count > 0 && cursor_is(c, last, "of") && cursor_is(c, c->item, "form")) {

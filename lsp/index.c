@@ -548,6 +548,7 @@ static void use_libraries(tn_index *index, const tn_ast_file *file)
         index_use(index, &index->schemas, library->using);
         index_use(index, &index->names, library->from);
         index_use(index, &index->forms, library->in);
+        index_use(index, &index->schemas, library->onto);
         if (symbol)
             use_library(index, symbol, library);
     }

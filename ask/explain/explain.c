@@ -381,7 +381,10 @@ static tn_status set_clause(const tn_explained *explained, const tn_explained_ru
     to->has_ways = rule->ways != NULL;
     if (rule->ways)
         mpz_set_str(to->ways, rule->ways, 10);
+    to->has_above = rule->above != NULL;
     tn_status status = set_tree(explained, &rule->why, 0, &to->why, error);
+    if (status == TN_OK && rule->above && !(to->above = strdup(rule->above)))
+        status = tn_fail_memory(error);
     if (status == TN_OK && to->has_beginning)
         status = set_beginning(explained, &rule->beginning, &to->beginning, error);
     return status == TN_OK && to->has_largest ? set_part(explained, &rule->why, largest, &to->largest, error) : status;

@@ -229,7 +229,8 @@ static tn_status tell_idle_requirement(const teller *t)
     bool settable = false;
     for (uint32_t i = 0; i < library->clause_count; i++)
         settable |= is_settable(t, clause_span(t, library->clause_first + i));
-    if (is_allowed(t, W_NEEDLESS_REQUIREMENT, span) || settable)
+    bool projects = t->module->CLAUSE_records[t->finding->clause].kind == TN_CLAUSE_ONTO; /* which makes the library */
+    if (is_allowed(t, W_NEEDLESS_REQUIREMENT, span) || settable || projects)
         return TN_OK;
     tn_diagnostic *d =
         tn_report(list_of(t), W_NEEDLESS_REQUIREMENT, span, "every plan that `%s` would hold without `%s` meets it",

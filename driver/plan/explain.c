@@ -7,6 +7,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/base/length.h"
+#include "runtime/plan/match/image_search.h"
 #include "runtime/plan/measure/amount.h"
 #include "runtime/plan/picture/draw_explain.h"
 #include "runtime/plan/schema/sum.h"
@@ -609,12 +610,25 @@ static void write_beginning(writing *w, const tn_explained *explained, const tn_
     free(words.data);
 }
 
+/* Whether a plan of another library lies above, and which. */
+static void write_projected(writing *w, const tn_explained_rule *rule)
+{
+    if (rule->projected && rule->above)
+        w->ok = w->ok && tn_buffer_printf(
+                             w->out, "  the first plan of `%s` that is this one without its newer fields:\n    %s\n",
+                             rule->projected, rule->above);
+    else if (rule->projected)
+        w->ok = w->ok &&
+                tn_buffer_printf(w->out, "  no plan of `%s` is this one without its newer fields\n", rule->projected);
+}
+
 bool tn_explained_rule_text(const tn_explained *explained, const tn_explained_rule *rule, bool full, tn_buffer *out)
 {
     writing w = {.why = &rule->why, .full = full, .out = out, .ok = true};
     w.ok &= tn_buffer_printf(out, "`%s` %s%s%s\n", rule->name, verdict(rule), *rule->doc ? ": " : "", rule->doc);
     write_tree(&w);
     write_largest(&w);
+    write_projected(&w, rule);
     write_beginning(&w, explained, &rule->beginning);
     if (rule->ways)
         w.ok &= tn_buffer_printf(out, "  in how many ways: %s\n", rule->ways);
@@ -780,6 +794,49 @@ static tn_status find_ways(const tn_explained *explained, const tn_clause_record
     return status == TN_LIMIT ? TN_OK : status;
 }
 
+/* The first plan that is the plan with newer fields. */
+static tn_status find_above(const tn_explained *explained, const tn_instruction *image, tn_explained_rule *made,
+                            tn_error *error)
+{
+    tn_image_search *search = NULL;
+    bool found = false;
+    tn_buffer line = {0};
+    tn_tray *newer = calloc(explained->length + 1, sizeof *newer);
+    tn_status status = newer ? tn_image_search_new(explained->schema, image, &search, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_image_search_find(search, explained->trays, explained->length, &found, newer, error);
+    if (status == TN_OK && found &&
+        !tn_plan_write_line(tn_image_search_projection(search)->newer, newer, explained->length, &line))
+        status = tn_fail_memory(error);
+    if (status == TN_OK && found && !(made->above = line.data ? line.data : strdup("")))
+        status = tn_fail_memory(error);
+    if (status != TN_OK)
+        free(line.data);
+    tn_image_search_free(search);
+    free(newer);
+    return status;
+}
+
+/* A clause that says what plans are made of: how far one goes along with them that is not. */
+static tn_status explain_made(const tn_explained *explained, const tn_clause_record *clause, size_t max_length,
+                              tn_explained_rule *made, tn_error *error)
+{
+    const tn_module *module = explained->opened->module;
+    tn_instruction image;
+    tn_status status = TN_OK;
+    if (tn_function_is_image(module, clause->holds, &image)) {
+        made->projected = tn_text(module, module->LIBRARY_records[image.first].name);
+        status = made->holds ? find_above(explained, &image, made, error) : TN_OK;
+    }
+    if (status == TN_OK && made->holds && !made->projected)
+        status = find_ways(explained, clause, max_length, made, error);
+    if (status != TN_OK || !made->drops)
+        return status;
+    return tn_generated_beginning_find(explained->schema, clause->holds, explained->library->trays_min,
+                                       explained->library->trays_max, explained->trays, explained->length,
+                                       &made->beginning, error);
+}
+
 static tn_status explain_clause(tn_explained *explained, uint32_t i, size_t max_length, tn_error *error)
 {
     const tn_module *module = explained->opened->module;
@@ -793,12 +850,8 @@ static tn_status explain_clause(tn_explained *explained, uint32_t i, size_t max_
     tn_status status = explain_one(explained, made, clause->holds, max_length, error);
     made->drops = status == TN_OK && made->holds == (clause->kind == TN_CLAUSE_PRUNE);
     explained->kept = explained->kept && !made->drops;
-    if (status == TN_OK && made->drops && clause->kind == TN_CLAUSE_GENERATE)
-        status = tn_generated_beginning_find(explained->schema, clause->holds, explained->library->trays_min,
-                                             explained->library->trays_max, explained->trays, explained->length,
-                                             &made->beginning, error);
-    if (status == TN_OK && made->holds && clause->kind == TN_CLAUSE_GENERATE)
-        status = find_ways(explained, clause, max_length, made, error);
+    if (status == TN_OK && (clause->kind == TN_CLAUSE_GENERATE || clause->kind == TN_CLAUSE_ONTO))
+        status = explain_made(explained, clause, max_length, made, error);
     return status;
 }
 
@@ -847,6 +900,7 @@ void tn_explained_clear(tn_explained *explained)
         tn_explanation_clear(&explained->rules[i].why);
         tn_generated_beginning_clear(&explained->rules[i].beginning);
         free(explained->rules[i].ways);
+        free(explained->rules[i].above);
     }
     for (size_t i = 0; i < explained->preference_count; i++)
         tn_explanation_clear(&explained->preferences[i].why);

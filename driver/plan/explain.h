@@ -21,7 +21,9 @@ typedef struct tn_explained_rule {
     bool drops; /* a clause that keeps the plan out of its library */
     tn_explanation why;
     tn_generated_beginning beginning; /* of a clause that says what plans are made of, if this one is not */
-    char *ways; /* and if it is: in how many ways, in digits; NULL if that passes a limit. Owned */
+    char *ways;            /* and if it is: in how many ways, in digits; NULL if that passes a limit. Owned */
+    const char *projected; /* of a projection: the library whose plans are projected; else NULL */
+    char *above;           /* and the line of its first plan that is above this one, if there is one */
 } tn_explained_rule;
 
 /* A preference of a library, explained. */

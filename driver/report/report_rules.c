@@ -41,7 +41,11 @@ static card card_of_rule(const tn_reporting *r, uint32_t index)
 
 static card card_of(const tn_reporting *r, uint32_t index)
 {
-    static const char *const kinds[] = {"required", "required", "prunes"};
+    static const char *const kinds[TN_CLAUSE_KIND_COUNT] = {[TN_CLAUSE_REQUIRE] = "required",
+                                                            [TN_CLAUSE_TOTAL] = "required",
+                                                            [TN_CLAUSE_PRUNE] = "prunes",
+                                                            [TN_CLAUSE_GENERATE] = "generates",
+                                                            [TN_CLAUSE_ONTO] = "projected"};
     const tn_clause_record *clause = clause_record(r, index);
     const char *doc = tn_text(r->module, clause->doc);
     uint32_t rule = tn_function_rule(r->module, clause->holds);

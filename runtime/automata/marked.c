@@ -108,3 +108,24 @@ tn_status tn_marked_whole(const tn_marked *marked, const tn_dfa *a, tn_dfa **out
     tn_dfa_free(plain);
     return status;
 }
+
+tn_status tn_marked_words(const tn_marked *marked, const tn_dfa *words, tn_dfa **out, tn_error *error)
+{
+    uint32_t columns = words->columns + 1, begin = 0, end = words->states + 1, dead = end + 1; /* 1 on: their states */
+    tn_dfa *dfa = tn_dfa_new(marked->letters, columns, words->states + 3);
+    if (!dfa)
+        return tn_fail_memory(error);
+    memcpy(dfa->column, words->column, words->letters * sizeof *dfa->column);
+    dfa->column[marked->letters - 1] = words->columns;
+    for (uint32_t s = 0; s < dfa->states; s++) {
+        uint32_t *row = dfa->delta + (size_t)s * columns;
+        bool inside = s > begin && s < end;
+        for (uint32_t c = 0; c < words->columns; c++)
+            row[c] = inside ? words->delta[(size_t)(s - 1) * words->columns + c] + 1 : dead;
+        row[words->columns] = s == begin ? 1 : inside && words->accept[s - 1] ? end : dead;
+    }
+    dfa->accept[end] = 1;
+    tn_status status = tn_dfa_minimise(dfa, 0, out, error);
+    tn_dfa_free(dfa);
+    return status;
+}

@@ -92,6 +92,9 @@ tn_status tn_marked_count(const tn_marked *marked, const tn_dfa *a, tn_tally tal
 /* The words whose whole stretch is in a relation: an automaton without the marker. */
 tn_status tn_marked_whole(const tn_marked *marked, const tn_dfa *a, tn_dfa **out, tn_error *error);
 
+/* The whole of each word that an automaton without the marker accepts. */
+tn_status tn_marked_words(const tn_marked *marked, const tn_dfa *words, tn_dfa **out, tn_error *error);
+
 /* The words that contain a non-empty stretch of a relation: tn_marked_whole of tn_marked_somewhere, without the detour.
  */
 tn_status tn_marked_anywhere(const tn_marked *marked, const tn_dfa *a, tn_dfa **out, tn_error *error);

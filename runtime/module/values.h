@@ -11,6 +11,7 @@
 /* Bounds that every module keeps; the compiler reports what passes them in a source (E0811, E0812). */
 #define TN_FIELDS_MAX 64u        /* fields of a schema */
 #define TN_VALUES_MAX 255u       /* values of a field: engines number them in a byte */
+#define TN_PROJECTIONS_MAX 16u   /* libraries above one another, each projected onto the next: this bounds recursion */
 #define TN_TRAYS_MAX 1000000000u /* of a library's plans; engines have their own, lower limits */
 #define TN_NAME_MAX 255u         /* bytes of a name */
 #define TN_SPELLING_MAX 511u     /* bytes of what is made of names: "fill:depth", a clause's "rule.2" */

@@ -30,6 +30,7 @@ def plans_by_reference(subject):
     answered(lambda: preferences_by_reference(subject, file, kept))
     answered(lambda: generated_by_reference(subject, file, kept))
     answered(lambda: ways_by_reference(subject, file, kept))
+    answered(lambda: projected_by_reference(subject, file, kept))
     for rule in subject.rules():
         answered(lambda: rule_by_reference(subject, file, kept, rule))
     for measure in subject.measures() if kept else []:
@@ -123,6 +124,22 @@ def ways_by_reference(subject, file, kept):
     same("ways of each plan", [int(line[0]) for line in listed], numbers[:200])
     if kept and found["first"] is not None and most in numbers[:200]:
         same("first plan with the most ways", found["first"], listed[numbers.index(most)][1])
+
+
+def projected_by_reference(subject, file, kept):
+    """What `explain` says of plans of a library that is projected, and of others."""
+    if not file.projection(subject.item.name):
+        return
+    above, fields = file.projection(subject.item.name)
+    lined, those = lines_of_all(subject, file), {plan.trays for plan in kept}
+    chosen = random.Random(subject.text)
+    for line, plan in chosen.sample(lined, min(len(lined), 6)):
+        if line:
+            explained = subject.json("explain", line)
+            said = next(c for c in explained["clauses"] if c["kind"] == "onto")
+            lies = file.is_image(plan, above, fields, file.lengths(subject.item.name))
+            same("explain keeps", explained["kept"], plan.trays in those)
+            same("explain says whether a plan lies above", (said["name"], said["matches"], said["drops"], "above" in said), (above, lies, not lies, lies))
 
 
 def circles_by_reference(kind):

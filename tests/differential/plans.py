@@ -333,6 +333,8 @@ CONTEXTS = {
     "rule_head: rule NAME params doc using allow": head("r"), "library_head: library NAME doc using": head("l"),
     "library_head: library NAME doc using FROM NAME":
         lambda maker, place: {**head("l")(maker, place), 3: place.but(want="using-schema"), 5: place.but(want="library")},
+    "library_head: library NAME doc using FROM NAME ONTO NAME":
+        lambda maker, place: {**head("l")(maker, place), 3: place.but(want="using-schema"), 5: place.but(want="library"), 7: place.but(want="exact", text=place.schema)},
     "library_head: library NAME doc using FROM NAME IN NAME":
         lambda maker, place: {**head("h")(maker, place), 3: place.but(want="using-schema"), 5: place.but(want="plans"),
                               7: place.but(want="exact", text=place.form)},
@@ -667,9 +669,9 @@ def clauses(maker, depth, place):
     """Every library of plans says first how many trays its plans have."""
     counts = [0, 0, 0, 1] if place.item == "plans of houses" else [0, 1, 1, 1, 1, 1, 1, 2] if place.form else [0, 1, 1, 2]
     made = [maker.make("clause", depth, place) for _ in range(maker.random.choice(counts))]
-    if place.longer and place.text != "from" and maker.chance(.5):
+    if place.longer and place.text not in ("from", "onto") and maker.chance(.5):
         made.append(maker.make_of("clause: generate_word require", 2, place))
-    if not place.form and place.text != "from":
+    if not place.form and place.text not in ("from", "onto"):
         made.insert(0, maker.make_of("clause: trays_word range", 3, place))
     return listed(maker.grammar, "clauses", made)
 
@@ -857,6 +859,8 @@ AVAILABLE["primary: SUM OPEN tray_sum OF expression region CLOSE"] = lambda plac
 for clause in ("trays_word range", "total_word total_field range doc", "total_word total_field comparison constant doc", "weight_word expression",
                "weight_word expression positive", "prefer_word preferences", "generate_word require"):
     AVAILABLE["clause: " + clause] = lambda place: not place.form
+for clause in ("trays_word range", "generate_word require"):             # a library that is projected says that already
+    AVAILABLE["clause: " + clause] = lambda place: not place.form and place.text != "onto"
 
 
 # ---- a file
@@ -954,6 +958,17 @@ def library_for_newer(maker, items, name, place):
     items.append(Node(item.symbol, item.production, item.children, context=place))
 
 
+def library_onto(maker, items, name, place):
+    """A library of plans of a newer schema, projected onto the schema at hand."""
+    head = maker.node("library_head: library NAME doc using FROM NAME ONTO NAME", maker.make("library", 1, place),
+                      maker.word("NAME", place.scope.fresh(maker.random, "bare")), maker.make("doc", 1, place), maker.node("using: %empty"),
+                      maker.word("NAME", name), maker.word("NAME", place.schema))
+    head = Node(head.symbol, head.production, head.children, context=place)
+    item = maker.node(LIBRARY, head, maker.make("clauses", 2, place.but(text="onto")))
+    place.scope.declare(item)
+    items.append(Node(item.symbol, item.production, item.children, context=place))
+
+
 def add_tests(maker, items, place):
     for kind in ("rule", "library", "measure"):
         of = place.but(item="test", test=kind)
@@ -979,6 +994,8 @@ def make_file(maker):
         library(maker, items, "library_head: library NAME doc using", 2, newer.but(item="library"))
         if maker.chance(.4):
             library_for_newer(maker, items, random.choice([n for n, l in scope.libraries.items() if l.schema == schemas[0]]), newer.but(item="library"))
+        if maker.chance(.6):
+            library_onto(maker, items, random.choice([n for n, l in scope.libraries.items() if l.schema == newer.schema]), first.but(item="library"))
     if maker.chance(.3):
         library(maker, items, "library_head: library NAME doc using FROM NAME", 2, first.but(item="library"))
     add_tests(maker, items, first)

@@ -1002,6 +1002,7 @@ class File:
     """What a file says about one of its schemas."""
 
     def __init__(self, root, schema):
+        self.root, self.images = root, {}
         self.items = find_all(root, "item")
         schemas = {i.child("NAME").text: i for i in self.items if i.production.symbols[0] == "schema"}
         if schema not in schemas:
@@ -1056,29 +1057,59 @@ class File:
             raise Unknown("a name for a parameter")
         return AS_WRITTEN, texts[0]
 
+    def named(self, name, word):
+        """What stands behind the word in the head of the library, else None."""
+        texts = words(self.libraries[name].child("library_head"))
+        return texts[texts.index(word) + 1] if word in texts else None
+
     def clauses(self, name):
-        """Those of the library that it is made from first."""
-        item = self.libraries[name]
-        texts = words(item.child("library_head"))
-        older = texts[texts.index("from") + 1] if "from" in texts else None
-        return (self.clauses(older) if older else []) + find_all(item.child("clauses"), "clause")
+        """Those of the library that it is made from first; one that is projected has none of them."""
+        older = self.named(name, "from") if not self.named(name, "onto") else None
+        return (self.clauses(older) if older else []) + find_all(self.libraries[name].child("clauses"), "clause")
 
     def lengths(self, name):
-        ranges = [c for c in self.clauses(name) if c.production.symbols[0] == "trays_word"]
+        own = find_all(self.libraries[name].child("clauses"), "clause")
+        ranges = [c for c in own if c.production.symbols[0] == "trays_word"]
+        if not ranges:
+            return self.lengths(self.named(name, "from"))
         ends = [int(t) for t in words(ranges[-1].child("range")) if t != ".."]
         return range(ends[0], ends[-1] + 1)
 
-    def plans(self, name):
-        lengths, each = self.lengths(name), len(self.schema.trays)
+    def schema_of(self, name):
+        known = self.named(name, "onto") or self.named(name, "using")
+        older = self.named(name, "from")
+        return known or (self.schema_of(older) if older else self.schema.name)
+
+    def projection(self, name):
+        """(the library whose plans lie above those of this one, the fields of the schema onto which it is projected), or None."""
+        older, onto = self.named(name, "from"), self.named(name, "onto")
+        if onto:
+            return older, File(self.root, onto).schema.fields
+        return self.projection(older) if older else None
+
+    def bare(self, plan, fields):
+        """The plan without all other fields; None where it has a value that these do not have."""
+        trays = tuple(tray[:len(fields)] for tray in plan.trays)
+        return trays if all(v in values for tray in trays for v, (_, _, values) in zip(tray, fields)) else None
+
+    def is_image(self, plan, above, fields, lengths):
+        """Is some plan of the library above, of these lengths, the same in these fields?"""
+        key = above, len(fields), lengths
+        if key not in self.images:
+            self.images[key] = {self.bare(p, fields) for p in File(self.root, self.schema_of(above)).kept(above, lengths)} - {None}
+        return self.bare(plan, fields) in self.images[key]
+
+    def plans(self, name, lengths=None):
+        lengths, each = lengths or self.lengths(name), len(self.schema.trays)
         if sum(each**n for n in lengths) > PLANS:
             raise Unknown("too many plans")
         for n in lengths:
             for trays in itertools.product(self.schema.trays, repeat=n):
                 yield Plan(self, self.schema, trays)
 
-    def kept(self, name):
-        clauses = self.clauses(name)
-        return [p for p in self.plans(name) if all(self.keeps(p, c) for c in clauses)]
+    def kept(self, name, lengths=None):
+        clauses, projection, lengths = self.clauses(name), self.projection(name), lengths or self.lengths(name)
+        return [p for p in self.plans(name, lengths) if (not projection or self.is_image(p, *projection, lengths)) and all(self.keeps(p, c) for c in clauses)]
 
     def keeps(self, plan, clause):
         kind = clause.production.symbols[0]

@@ -3,7 +3,7 @@ import re
 from dataclasses import dataclass
 
 HEAD = re.compile(r"""^(?P<kind>schema|rule|measure|library|form|let|param)\s+(?P<name>[^\W\d][\w-]*)\s*(?P<params>\([^)]*\))?\s*(?:"(?:\\.|[^"\\])*")?
-                      \s*(?:using\s+(?P<using>[\w-]+))?\s*(?:from\s+(?P<older>[\w-]+))?\s*(?:in\s+(?P<form>[\w-]+))?\s*(?:of\s+(?P<schema>[\w-]+))?""", re.X)
+                      \s*(?:using\s+(?P<using>[\w-]+))?\s*(?:from\s+(?P<older>[\w-]+))?\s*(?:onto\s+(?P<onto>[\w-]+))?\s*(?:in\s+(?P<form>[\w-]+))?\s*(?:of\s+(?P<schema>[\w-]+))?""", re.X)
 
 
 @dataclass
@@ -13,6 +13,7 @@ class Item:
     params: bool
     using: str
     older: str
+    onto: str
     form: str
     schema: str
     text: str
@@ -37,6 +38,8 @@ class Source:
         """(schema, form or None) of a library, rule or measure."""
         if item.form:
             return self.by_name[item.form].schema, item.form
+        if item.onto:
+            return item.onto, None
         if item.kind == "library" and item.older in self.by_name:
             schema, form = self.about(self.by_name[item.older])
             return item.using or schema, form
@@ -56,7 +59,7 @@ def read_item(text):
     found = HEAD.match(text)
     if not found:
         return None
-    return Item(found["kind"], found["name"], bool(found["params"]), found["using"], found["older"], found["form"], found["schema"], text)
+    return Item(found["kind"], found["name"], bool(found["params"]), found["using"], found["older"], found["onto"], found["form"], found["schema"], text)
 
 
 def read_source(path):

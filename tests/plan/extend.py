@@ -205,13 +205,18 @@ def json_tray(tray):
     return {f: v if isinstance(v, str) else {"fill": v[0], **({"depth": v[1]} if v[1] else {})} for f, v in tray.items()}
 
 
-undecided = 0
-with tempfile.TemporaryDirectory() as folder:
-    for seed in range(first, last):
-        undecided += check(seed, folder)
-print("%d cases, %d of them neither all nor nothing" % (last - first, undecided))
-for fault in faults[:5]:
-    print(fault)
-if undecided < (last - first) // 4:
-    faults.append("too few cases mean something")
-sys.exit(1 if faults else 0)
+def main():
+    undecided = 0
+    with tempfile.TemporaryDirectory() as folder:
+        for seed in range(first, last):
+            undecided += check(seed, folder)
+    print("%d cases, %d of them neither all nor nothing" % (last - first, undecided))
+    for fault in faults[:5]:
+        print(fault)
+    if undecided < (last - first) // 4:
+        faults.append("too few cases mean something")
+    sys.exit(1 if faults else 0)
+
+
+if __name__ == "__main__":
+    main()

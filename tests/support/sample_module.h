@@ -149,6 +149,7 @@ static inline void sample_rule(tn_builder *builder, uint32_t narrow, uint32_t co
     tn_builder_emit(builder, TN_OP_WHERE, 0, 0);
     tn_builder_emit(builder, TN_OP_TRAY, narrow, 0);
     tn_builder_emit(builder, TN_OP_OR, 0, 0);
+    tn_builder_emit(builder, TN_OP_ONCE, 0, 0);
     uint32_t all = sample_function(builder, "everything", TN_FUNCTION_HOLDS, begin, 3);
     begin = tn_builder_offset(builder);
     sample_map(builder, "pair");
@@ -158,6 +159,10 @@ static inline void sample_rule(tn_builder *builder, uint32_t narrow, uint32_t co
     tn_builder_emit(builder, TN_OP_OPTIONAL, 0, 0);
     tn_builder_emit(builder, TN_OP_CHAIN, 0, 0);
     sample_function(builder, "row", TN_FUNCTION_CIRCLE, begin, 2);
+    begin = tn_builder_offset(builder);
+    sample_map(builder, "library");
+    tn_builder_emit(builder, TN_OP_IMAGE, 0, 0);
+    sample_function(builder, "toys", TN_FUNCTION_HOLDS, begin, 1);
     tn_builder_add_RULE(builder, &(tn_rule_record){.name = tn_builder_string(builder, "pair"),
                                                    .doc = tn_builder_string(builder, "two 4' trays"),
                                                    .whole = whole,

@@ -213,10 +213,12 @@ typedef struct tn_checked_clause {
     const struct tn_checked_schema *older; /* the schema that it was written for */
     tn_ast_expr *written;                  /* before anything was written out */
     tn_ast_expr *expr;
-    tn_checked_rule *rule;           /* the clause is this rule's */
-    tn_checked_condition *condition; /* total */
-    tn_checked_spec *any;            /* total */
-    uint32_t field;                  /* total */
+    tn_checked_rule *rule;                /* the clause is this rule's */
+    tn_checked_condition *condition;      /* total */
+    tn_checked_spec *any;                 /* total */
+    uint32_t field;                       /* total */
+    struct tn_checked_library *above;     /* whose plans lie above those of this library: of a projection; else NULL, */
+    const struct tn_checked_schema *onto; /* and the same in the fields of this schema */
     tn_span span;
     bool settable;     /* what is written in it depends on a param */
     uint32_t function; /* emitted: plus one; 0: not yet */
@@ -269,7 +271,8 @@ typedef struct tn_checked_library {
     uint32_t trays_min, trays_max;
     tn_ast_list allow;
     int state;
-    bool broken; /* what it is made from is not known */
+    bool broken;      /* what it is made from is not known */
+    unsigned heights; /* how many libraries lie above it, each projected onto the schema of the next */
     uint32_t index;
 } tn_checked_library;
 

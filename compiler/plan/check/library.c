@@ -159,8 +159,23 @@ static void add_total(tn_check *check, tn_checked_library *library, const tn_ast
         put_clause(check, library, clause);
 }
 
+/* A plan has as many trays as the one that lies above it. */
+static void report_projected_trays(tn_check *check, const tn_checked_library *library, const tn_ast_clause *ast)
+{
+    const tn_checked_library *from = library->from;
+    tn_diagnostic *d = tn_report(check->diagnostics, E_TRAYS_TWICE, ast->node.span,
+                                 "the plans of `%s` have as many trays as those of `%s`", library->name, from->name);
+    if (from->trays)
+        tn_note(check->diagnostics, d, &from->trays->node.span, "how many these have is said here");
+    tn_help(check->diagnostics, d, "leave this out, or write it in a library that is made `from %s`", library->name);
+}
+
 static void set_trays(tn_check *check, tn_checked_library *library, const tn_ast_clause *ast)
 {
+    if (library->ast->onto && library->from) {
+        report_projected_trays(check, library, ast);
+        return;
+    }
     bool own = library->trays && (!library->from || library->trays != library->from->trays);
     if (own) {
         tn_diagnostic *d = tn_report(check->diagnostics, E_TRAYS_TWICE, ast->node.span,
@@ -188,7 +203,7 @@ static bool generates_twice(tn_check *check, const tn_checked_library *library, 
 {
     for (size_t i = 0; i < library->clause_count; i++) {
         const tn_checked_clause *before = library->clauses[i];
-        if (before->kind != TN_CLAUSE_GENERATE)
+        if (before->kind != TN_CLAUSE_GENERATE && before->kind != TN_CLAUSE_ONTO)
             continue;
         tn_diagnostic *d = tn_report(check->diagnostics, E_GENERATED_TWICE, clause->span,
                                      "library `%s` says already what its plans are made of", library->name);
@@ -204,9 +219,8 @@ static void add_clause(tn_check *check, tn_checked_library *library, tn_ast_clau
     static const tn_clause_kind kinds[] = {
         [TN_FORM_TOTAL_RANGE] = TN_CLAUSE_TOTAL, [TN_FORM_TOTAL_COMPARE] = TN_CLAUSE_TOTAL,
         [TN_FORM_REQUIRE] = TN_CLAUSE_REQUIRE,   [TN_FORM_PRUNE] = TN_CLAUSE_PRUNE,
-        [TN_FORM_GENERATE] = TN_CLAUSE_GENERATE,
-        [TN_FORM_ALLOW] = TN_CLAUSE_PRUNE,       [TN_FORM_WEIGHT] = TN_CLAUSE_REQUIRE,
-        [TN_FORM_PREFER] = TN_CLAUSE_REQUIRE,
+        [TN_FORM_GENERATE] = TN_CLAUSE_GENERATE, [TN_FORM_ALLOW] = TN_CLAUSE_PRUNE,
+        [TN_FORM_WEIGHT] = TN_CLAUSE_REQUIRE,    [TN_FORM_PREFER] = TN_CLAUSE_REQUIRE,
     };
     bool of_plans = ast->form == TN_FORM_TRAYS || ast->form == TN_FORM_WEIGHT || ast->form == TN_FORM_PREFER ||
                     kinds[ast->form] == TN_CLAUSE_TOTAL || ast->form == TN_FORM_GENERATE;
@@ -313,6 +327,8 @@ static tn_checked_clause *renew(tn_check *check, const tn_checked_library *libra
         clause->expr = ast->expr;
         if (clause->expr)
             clause->rule = tn_clause_rule(clause->expr);
+    } else if (old->above) {
+        clause->function = 0;
     } else {
         clause->condition = tn_check_total(check, ast, clause->field);
         clause->any = tn_check_any(check, library->schema, ast->node.span);
@@ -348,6 +364,109 @@ static bool find_newer(tn_check *check, tn_checked_library *library, const tn_ch
     return false;
 }
 
+/* ---- `from LIBRARY onto SCHEMA`: the plans of a library without the fields that are newer than the schema */
+
+/* "`lahave`, `walls`": what the schema is made from. */
+static const char *older_schemas(tn_check *check, const tn_checked_schema *schema)
+{
+    char names[300] = "";
+    size_t used = 0;
+    for (const tn_checked_schema *base = schema->base; base && used < sizeof names; base = base->base)
+        used += (size_t)snprintf(names + used, sizeof names - used, "%s`%s`", used ? ", " : "", base->name);
+    return tn_arena_copy(check->arena, names, strlen(names));
+}
+
+static void report_schema(tn_check *check, const tn_checked_library *from, const tn_ast_word *onto)
+{
+    const tn_checked_schema *schema = from->schema;
+    bool own = strcmp(schema->name, onto->text) == 0;
+    tn_diagnostic *d = own ? tn_report(check->diagnostics, E_NOT_OLDER, onto->node.span,
+                                       "`%s` is the schema of library `%s` itself", onto->text, from->name)
+                           : tn_report(check->diagnostics, E_NOT_OLDER, onto->node.span,
+                                       "library `%s` is of schema `%s`, which is not made from schema `%s`", from->name,
+                                       schema->name, onto->text);
+    tn_note(check->diagnostics, d, &schema->ast->name->node.span, "schema `%s` is here", schema->name);
+    const char *older = older_schemas(check, schema);
+    if (older && *older)
+        tn_help(check->diagnostics, d, "name one that `%s` is made from: %s", schema->name, older);
+    else if (own)
+        tn_help(check->diagnostics, d, "leave `onto %s` out: no field is newer", onto->text);
+    else
+        tn_help(check->diagnostics, d,
+                "`%s` is made from no other schema: only `schema NEWER from OLDER` has newer fields", schema->name);
+}
+
+static void report_houses(tn_check *check, const tn_checked_library *from, const tn_ast_word *onto)
+{
+    tn_diagnostic *d = tn_report(check->diagnostics, E_NOT_OLDER, onto->node.span,
+                                 "`%s` is a library of houses, and a plan is what is projected", from->name);
+    tn_note(check->diagnostics, d, &from->ast->name->node.span, "library `%s` is here", from->name);
+    tn_help(check->diagnostics, d, "begin with the library of its plans: `from %s onto %s`", from->plans->name,
+            onto->text);
+}
+
+static void report_using(tn_check *check, const tn_ast_library *ast)
+{
+    tn_diagnostic *d = tn_report(check->diagnostics, E_NOT_OLDER, ast->using->node.span,
+                                 "the schema of library `%s` stands behind `onto`", ast->name->text);
+    tn_note(check->diagnostics, d, &ast->onto->node.span, "it is `%s`", ast->onto->text);
+    tn_help(check->diagnostics, d, "leave `using %s` out", ast->using->text);
+}
+
+/* Is the schema one that the library's is made from? */
+static bool fits(tn_check *check, const tn_checked_library *from, const tn_checked_schema *schema,
+                 const tn_ast_library *ast)
+{
+    if (ast->using)
+        report_using(check, ast);
+    else if (from->form)
+        report_houses(check, from, ast->onto);
+    else if (from->schema && !tn_schema_extends(from->schema, schema))
+        report_schema(check, from, ast->onto);
+    else
+        return from->schema != NULL;
+    return false;
+}
+
+static tn_checked_clause *onto_clause(tn_check *check, tn_checked_library *library, tn_checked_library *from)
+{
+    const tn_ast_library *ast = library->ast;
+    library->schema = tn_check_schema_for(check, library->unit, ast->onto, ast->onto->node.span);
+    library->heights = from->heights + 1;
+    if (!library->schema || !fits(check, from, library->schema, ast) ||
+        !tn_check_room(check, from->heights, TN_PROJECTIONS_MAX, "projection", ast->onto->node.span,
+                       "say in one library what several say in turn"))
+        return NULL;
+    tn_ast_clause *written = TN_NEW(check->arena, tn_ast_clause);
+    tn_checked_clause *clause = TN_NEW(check->arena, tn_checked_clause);
+    if (!written || !clause)
+        return NULL;
+    *written = (tn_ast_clause){.node.span = ast->projected, .form = TN_FORM_REQUIRE};
+    *clause = (tn_checked_clause){.ast = written,
+                                  .kind = TN_CLAUSE_ONTO,
+                                  .name = from->name,
+                                  .doc = from->ast->doc ? from->ast->doc->text : NULL,
+                                  .unit = library->unit,
+                                  .older = library->schema,
+                                  .above = from,
+                                  .onto = library->schema,
+                                  .span = ast->projected,
+                                  .field = TN_NONE};
+    return clause;
+}
+
+/* Its clauses are asked of the plans that lie above. */
+static void project(tn_check *check, tn_checked_library *library, tn_checked_library *from)
+{
+    tn_checked_clause *clause = onto_clause(check, library, from);
+    library->trays = from->trays;
+    library->trays_min = from->trays_min;
+    library->trays_max = from->trays_max;
+    library->broken |= !clause;
+    if (clause)
+        put_clause(check, library, clause);
+}
+
 /* Takes over the clauses of another library. */
 static void take_over(tn_check *check, tn_checked_library *library)
 {
@@ -367,6 +486,11 @@ static void take_over(tn_check *check, tn_checked_library *library)
     }
     check_library(check, name->library);
     tn_checked_library *from = library->from = name->library;
+    if (library->ast->onto) {
+        project(check, library, from);
+        return;
+    }
+    library->heights = from->heights;
     bool newer = find_newer(check, library, from);
     library->form = from->form;
     library->plans = from->form ? from->plans : NULL;

@@ -661,6 +661,15 @@ static bool names_settable(const tn_ast_expr *expr)
     return settable || (expr->figure && names_settable(expr->figure));
 }
 
+/* Does what the clause says depend on a param: of a projection, what any clause of the other library says? */
+static bool clause_settable(const tn_checked_clause *clause)
+{
+    bool settable = clause->settable || (clause->expr && names_settable(clause->expr));
+    for (size_t i = 0; clause->above && !settable && i < clause->above->clause_count; i++)
+        settable = clause_settable(clause->above->clauses[i]);
+    return settable;
+}
+
 void tn_check_settable(tn_check *check)
 {
     const tn_checked *result = check->result;
@@ -678,7 +687,7 @@ void tn_check_settable(tn_check *check)
         const tn_checked_library *library = result->libraries[i];
         for (size_t k = 0; k < library->clause_count; k++) {
             const tn_checked_clause *clause = library->clauses[k];
-            if (clause->settable || (clause->expr && names_settable(clause->expr)))
+            if (clause_settable(clause))
                 spans[result->program->settable_count++] = clause->span;
         }
     }

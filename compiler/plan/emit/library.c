@@ -9,6 +9,19 @@ static void emit_total(tn_emit *emit, const tn_checked_clause *clause)
     tn_emit_op(emit, clause->span, TN_OP_SUM, field, clause->condition->function - 1);
 }
 
+/* A plan of another library lies above: that library's functions are lower ones. */
+static uint32_t emit_onto(tn_emit *emit, tn_checked_clause *clause, uint32_t schema)
+{
+    for (size_t i = 0; i < clause->above->clause_count; i++)
+        tn_emit_clause(emit, clause->above->clauses[i], clause->above->schema->index);
+    emit->schema = schema;
+    tn_emit_begin(emit, schema);
+    tn_emit_op(emit, clause->span, TN_OP_IMAGE, clause->above->index, clause->onto->index);
+    tn_emit_op(emit, clause->span, TN_OP_RETURN, 0, 0);
+    clause->function = tn_emit_end(emit, clause->name, TN_FUNCTION_HOLDS) + 1;
+    return clause->function - 1;
+}
+
 uint32_t tn_emit_clause(tn_emit *emit, tn_checked_clause *clause, uint32_t schema)
 {
     bool whole = clause->kind == TN_CLAUSE_GENERATE; /* the plan as a whole is that, not only somewhere */
@@ -16,6 +29,8 @@ uint32_t tn_emit_clause(tn_emit *emit, tn_checked_clause *clause, uint32_t schem
         return clause->rule->holds;
     if (clause->function > 0)
         return clause->function - 1;
+    if (clause->above)
+        return emit_onto(emit, clause, schema);
     emit->schema = schema;
     emit->derives = whole;
     if (clause->expr)

@@ -349,7 +349,8 @@ typedef struct tn_ast_clause {
 
 typedef struct tn_ast_library {
     tn_ast_top top;
-    const tn_ast_word *name, *doc, *using, *from, *in;
+    const tn_ast_word *name, *doc, *using, *from, *in, *onto;
+    tn_span projected;   /* with `onto`: from `from` on */
     tn_ast_list clauses; /* tn_ast_clause */
 } tn_ast_library;
 

@@ -41,6 +41,7 @@ typedef struct tn_parse {
     bool schema_head;               /* a `schema` was read, and its { not yet */
     bool form_head;                 /* the same of `form` */
     bool test_head;                 /* of `test`: neither its `with` nor its { */
+    bool library_head;              /* of `library` */
     bool in_form, in_tile;          /* inside the braces of one */
     bool in_braces;
     tn_span brace, tile_brace; /* the { that is open; that of the tile inside it */

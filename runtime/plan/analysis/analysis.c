@@ -212,7 +212,8 @@ tn_status tn_plan_analysis_needs_length(const tn_module *module, uint32_t functi
         const tn_function_record *record = &module->FUNCTION_records[f];
         for (uint32_t offset = record->code_begin; reached[f] && offset < record->code_end;) {
             tn_instruction code = tn_code_read(module->code, offset);
-            *needs |= tn_code_compares(code.opcode) || code.opcode == TN_OP_MIRRORED || code.opcode == TN_OP_AGAIN;
+            *needs |= tn_code_compares(code.opcode) || code.opcode == TN_OP_MIRRORED || code.opcode == TN_OP_AGAIN ||
+                      code.opcode == TN_OP_IMAGE;
             offset += code.length;
         }
     }

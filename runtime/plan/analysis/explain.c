@@ -4,6 +4,8 @@
 #include <stdlib.h>
 
 #include "runtime/base/array.h"
+#include "runtime/module/code.h"
+#include "runtime/plan/match/image_search.h"
 #include "runtime/plan/match/relation.h"
 #include "runtime/plan/match/vm.h"
 
@@ -452,6 +454,28 @@ static tn_status keep_relation(tn_explaining *e, const uint64_t *from, bool mirr
     return TN_OK;
 }
 
+/* That a plan of another library lies above: not by the interpreter, which tries plans one by one. */
+static tn_status image_relation(tn_explaining *e, const tn_part *part, uint64_t **kept)
+{
+    const tn_explanation *result = e->result;
+    tn_instruction image = tn_code_read(result->schema->module->code, part->root);
+    tn_image_search *search = NULL;
+    bool found = false;
+    e->words = result->length / 64 + 1;
+    uint64_t *relation = calloc((size_t)result->length + 1, e->words * sizeof *relation);
+    tn_status status =
+        relation ? tn_image_search_new(result->schema, &image, &search, e->error) : tn_fail_memory(e->error);
+    if (status == TN_OK)
+        status = tn_image_search_find(search, result->trays, result->length, &found, NULL, e->error);
+    if (status == TN_OK && found)
+        tn_relation_row_set(relation, result->length);
+    if (status == TN_OK)
+        status = keep_relation(e, relation, false, kept);
+    tn_image_search_free(search);
+    free(relation);
+    return status;
+}
+
 /* The relation M of a part (H for parts judged as a region), found once. */
 static tn_status explain_relation(tn_explaining *e, tn_reader_of who, const uint64_t **relation)
 {
@@ -460,6 +484,11 @@ static tn_status explain_relation(tn_explaining *e, tn_reader_of who, const uint
     if (!*kept) {
         const tn_part *part = tn_part_of(e, who);
         const uint64_t *found = NULL;
+        if (part->kind == TN_PART_IMAGE) {
+            status = image_relation(e, part, kept);
+            *relation = *kept;
+            return status;
+        }
         status = tn_plan_vm_term(e->vm, part->code_begin, part->code_end, who.mirrored, &found, &e->words, e->error);
         if (status == TN_OK)
             status = keep_relation(e, found, who.mirrored, kept);
@@ -713,6 +742,7 @@ static tn_status explain_below(tn_explaining *e, tn_reader_of who, uint32_t node
     case TN_PART_WHERE:
         return explain_where(e, who, at, node);
     case TN_PART_COMPARISON:
+    case TN_PART_IMAGE:
     case TN_PART_HOUSE: /* in no rule about plans */
     case TN_PART_KIND_COUNT:
         break;

@@ -1,10 +1,13 @@
 /* Verifies and lists the rules and libraries of a module, and the code of rules and conditions. */
-#include "runtime/module/engine.h"
+#include <stdlib.h>
+
 #include "runtime/module/code.h"
+#include "runtime/module/engine.h"
 #include "runtime/module/lister.h"
 #include "runtime/module/verify.h"
 #include "runtime/plan/match/condition.h"
 #include "runtime/plan/schema/list.h"
+#include "runtime/plan/schema/projection.h"
 #include "runtime/plan/schema/sum.h"
 
 /* ---- verifying tables */
@@ -85,6 +88,9 @@ static tn_status check_call(const tn_checker *checker, const tn_instruction *ins
         return tn_refuse(checker, "calls function %u, which is not part of a rule", callee);
     if (function->schema != function_of(checker)->schema)
         return tn_refuse(checker, "calls function %u, which is of another schema", callee);
+    tn_instruction image;
+    if (tn_function_is_image(checker->module, callee, &image))
+        return tn_refuse(checker, "calls function %u, which asks for plans of another library", callee);
     return TN_OK;
 }
 
@@ -143,6 +149,111 @@ static tn_status check_numbers(const tn_checker *checker, const tn_instruction *
          (instruction->second != 0 && instruction->second < instruction->first)))
         return tn_refuse(checker, "a stretch is cut into 1 to %u others", TN_REPEATED_MAX);
     return TN_OK;
+}
+
+/* ---- verifying IMAGE: libraries lie above one another, and none above itself */
+
+/* Is the schema that one, or made from it, perhaps by way of others? Schemas are made from earlier ones. */
+static bool is_made_from(const tn_module *module, uint32_t schema, uint32_t older)
+{
+    while (schema != older && schema != TN_NO_RECORD)
+        schema = module->SCHEMA_records[schema].from;
+    return schema == older;
+}
+
+/* It is the whole of a function of kind HOLDS, and its schemas belong together. */
+static tn_status check_image(const tn_checker *checker, const tn_instruction *instruction)
+{
+    const tn_module *module = checker->module;
+    const tn_function_record *function = &module->FUNCTION_records[checker->record];
+    const tn_library_record *library = &module->LIBRARY_records[instruction->first];
+    uint32_t base = (uint32_t)instruction->second;
+    if (function->kind != TN_FUNCTION_HOLDS || function->code_end - function->code_begin != instruction->length + 1)
+        return tn_refuse(checker, "asks for plans of library %u beside other things", (unsigned)instruction->first);
+    if (!is_made_from(module, function->schema, base) || !is_made_from(module, library->schema, base))
+        return tn_refuse(checker, "schema %u is none that those of library %u and of the function are made from",
+                         (unsigned)base, (unsigned)instruction->first);
+    return TN_OK;
+}
+
+/* What is known of each library and function while functions are gone through from the lowest up. */
+typedef struct heights {
+    uint32_t *highest; /* [libraries]: one past the highest function of their clauses */
+    uint8_t *library;  /* [libraries]: how many libraries lie above one another from it on, itself one; 0: not known */
+    uint8_t *function; /* [functions]: likewise; 0: no IMAGE */
+} heights;
+
+static uint8_t height_of(const tn_module *module, const heights *h, uint32_t index)
+{
+    const tn_library_record *library = &module->LIBRARY_records[index];
+    uint8_t most = 0;
+    for (uint32_t i = 0; i < library->clause_count && h->library[index] == 0; i++) {
+        uint8_t height = h->function[module->CLAUSE_records[library->clause_first + i].holds];
+        most = height > most ? height : most;
+    }
+    if (h->library[index] == 0)
+        h->library[index] = most + 1;
+    return h->library[index];
+}
+
+static tn_status check_heights(const tn_checker *checker, const heights *h)
+{
+    const tn_module *module = checker->module;
+    for (uint32_t l = 0; l < module->LIBRARY_count; l++) {
+        const tn_library_record *library = &module->LIBRARY_records[l];
+        for (uint32_t i = 0; i < library->clause_count; i++) {
+            uint32_t holds = module->CLAUSE_records[library->clause_first + i].holds;
+            h->highest[l] = holds >= h->highest[l] ? holds + 1 : h->highest[l];
+        }
+    }
+    for (uint32_t f = 0; f < module->FUNCTION_count; f++) {
+        tn_instruction image;
+        if (module->FUNCTION_records[f].kind != TN_FUNCTION_HOLDS || !tn_function_is_image(module, f, &image))
+            continue;
+        uint32_t library = (uint32_t)image.first;
+        if (h->highest[library] > f)
+            return tn_refuse(checker, "function %u asks library %u, which has functions that are not lower", f,
+                             library);
+        h->function[f] = height_of(module, h, library);
+        if (h->function[f] > TN_PROJECTIONS_MAX)
+            return tn_refuse(checker, "more than %u libraries lie above one another", TN_PROJECTIONS_MAX);
+    }
+    return TN_OK;
+}
+
+static bool is_image(const tn_module *module, uint32_t function)
+{
+    tn_instruction image;
+    return function != TN_NO_RECORD && module->FUNCTION_records[function].kind == TN_FUNCTION_HOLDS &&
+           tn_function_is_image(module, function, &image);
+}
+
+/* Sums count in no such function. Rules do not call one, which is checked where they call. */
+static tn_status check_terms(const tn_checker *checker)
+{
+    const tn_module *module = checker->module;
+    for (size_t i = 0; i < module->TERM_count; i++)
+        if (is_image(module, module->TERM_records[i].part))
+            return tn_refuse(checker, "term %zu asks for plans of another library", i);
+    return TN_OK;
+}
+
+/* All of them, once all code has been found right: at most TN_PROJECTIONS_MAX libraries lie above one another, each of
+ * whose functions are lower ones; and nothing but clauses names the functions. */
+static tn_status verify_images(const tn_checker *checker)
+{
+    const tn_module *module = checker->module;
+    heights h = {.highest = calloc(module->LIBRARY_count + 1, sizeof *h.highest),
+                 .library = calloc(module->LIBRARY_count + 1, 1),
+                 .function = calloc(module->FUNCTION_count + 1, 1)};
+    bool ok = h.highest && h.library && h.function;
+    tn_status status = ok ? check_heights(checker, &h) : tn_fail_memory(checker->error);
+    if (status == TN_OK)
+        status = check_terms(checker);
+    free(h.highest);
+    free(h.library);
+    free(h.function);
+    return status;
 }
 
 /* ---- listing */
@@ -233,6 +344,14 @@ static void list_field(tn_lister *lister, const tn_instruction *instruction)
     tn_list_name(lister, lister->module->FIELD_records[instruction->first].name);
 }
 
+static void list_image(tn_lister *lister, const tn_instruction *instruction)
+{
+    fputs("library ", lister->out);
+    tn_list_name(lister, lister->module->LIBRARY_records[instruction->first].name);
+    fputs(" onto ", lister->out);
+    tn_list_name(lister, lister->module->SCHEMA_records[instruction->second].name);
+}
+
 static void list_function(tn_lister *lister, uint32_t function)
 {
     if (lister->module->FUNCTION_records[function].kind != TN_FUNCTION_CONDITION)
@@ -257,7 +376,7 @@ static const tn_operand_rules operands[] = {
     {TN_OPERANDS_SPEC, check_spec, list_spec}, {TN_OPERANDS_FUNC, check_call, NULL},
     {TN_OPERANDS_COND, check_condition, NULL}, {TN_OPERANDS_FIELD_COND, check_sum, NULL},
     {TN_OPERANDS_INT2, check_numbers, NULL},   {TN_OPERANDS_FIELD, check_field, list_field},
-    {TN_OPERANDS_CIRCLE, check_circle, NULL},
+    {TN_OPERANDS_CIRCLE, check_circle, NULL},  {TN_OPERANDS_LIBRARY, check_image, list_image},
 };
 
 extern const tn_engine tn_engine_match;
@@ -268,6 +387,7 @@ const tn_engine tn_engine_match = {.name = "match",
                                    .operand_count = sizeof operands / sizeof *operands,
                                    .verify = verify,
                                    .verify_function = verify_function,
+                                   .verify_after = verify_images,
                                    .list = list,
                                    .list_record = list_record,
                                    .list_function = list_function,

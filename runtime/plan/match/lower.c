@@ -8,6 +8,7 @@
 #include "runtime/automata/numbering.h"
 #include "runtime/module/code.h"
 #include "runtime/plan/match/circle.h"
+#include "runtime/plan/match/image.h"
 #include "runtime/plan/match/postfix.h"
 #include "runtime/plan/match/summing.h"
 #include "runtime/plan/match/tray_relations.h"
@@ -244,6 +245,23 @@ static tn_status lower_house(const tn_lowering *lowering, const tn_postfix_node 
     return lowering->ask(lowering->house, &lowering->marked, &node->code, reversed, out, error);
 }
 
+/* IMAGE: of the plan as a whole. */
+static tn_status lower_image(const tn_lowering *lowering, const tn_postfix_node *node, bool reversed, tn_dfa **out,
+                             tn_error *error)
+{
+    tn_image_options options = {
+        .max_states = lowering->bounds.max_states, .max_trays = lowering->max_trays, .reversed = reversed};
+    tn_dfa *words = NULL;
+    tn_status status = tn_image_lower(lowering->classes, &node->code, &options, &words, error);
+    if (status != TN_OK || node->plain) {
+        *out = words;
+        return status;
+    }
+    status = tn_marked_words(&lowering->marked, words, out, error);
+    tn_dfa_free(words);
+    return status;
+}
+
 static tn_status lower_node(tn_lowering *lowering, const tn_postfix_node *node, uint32_t form, tn_dfa *const *in,
                             tn_dfa **out, tn_error *error)
 {
@@ -260,6 +278,8 @@ static tn_status lower_node(tn_lowering *lowering, const tn_postfix_node *node, 
     case TN_OP_OR:
     case TN_OP_NOT:
         return lower_boolean(lowering, node, in, out, error);
+    case TN_OP_IMAGE:
+        return lower_image(lowering, node, form & FORM_REVERSED, out, error);
     case TN_OP_SOMEWHERE:
         if (node->plain)
             return tn_marked_anywhere(&lowering->marked, in[0], out, error);

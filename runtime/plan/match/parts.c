@@ -297,6 +297,8 @@ static tn_status read_instruction(reading *r, uint32_t offset, const tn_instruct
     case TN_OP_MULTIPLE:
     case TN_OP_MIRRORED:
         return push(r, leaf(TN_PART_COMPARISON, offset, code->length));
+    case TN_OP_IMAGE:
+        return push(r, leaf(TN_PART_IMAGE, offset, code->length));
     default:
         return foreign(r, offset);
     }
@@ -434,8 +436,8 @@ void tn_parts_clear(tn_parts *parts)
 const char *tn_part_word(tn_part_kind kind)
 {
     static const char *const words[TN_PART_KIND_COUNT] = {
-        "tray",        "rule", "and",    "or",       "not",  "neighbour", "symmetric", "quantity",   "sum",
-        "occurrences", "many", "repeat", "distance", "near", "far",       "where",     "comparison", "house",
+        "tray", "rule",   "and",      "or",   "not", "neighbour", "symmetric",  "quantity", "sum",   "occurrences",
+        "many", "repeat", "distance", "near", "far", "where",     "comparison", "onto",     "house",
     };
     return kind < TN_PART_KIND_COUNT ? words[kind] : "part";
 }

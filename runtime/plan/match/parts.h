@@ -31,6 +31,7 @@ typedef enum tn_part_kind {
     TN_PART_FAR,        /* likewise: every such destination */
     TN_PART_WHERE,      /* a stretch, and what else it is */
     TN_PART_COMPARISON, /* of sums, or of a stretch with its mirror image: a leaf, what it counts is not opened */
+    TN_PART_IMAGE,      /* a plan of another library lies above: a leaf, its clauses are not opened */
     TN_PART_HOUSE,      /* a question about a house (`cell`, `room`, `apart`): a leaf */
     TN_PART_KIND_COUNT
 } tn_part_kind;

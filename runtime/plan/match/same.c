@@ -72,6 +72,19 @@ static void add_sum(reading *r, uint32_t index)
     }
 }
 
+/* A library that is projected: what its plans are, without their lengths. */
+static void add_library(reading *r, uint32_t index)
+{
+    const tn_library_record *library = &r->module->LIBRARY_records[index];
+    add_number(r, library->schema);
+    add_number(r, library->clause_count);
+    for (uint32_t i = 0; i < library->clause_count; i++) {
+        const tn_clause_record *clause = &r->module->CLAUSE_records[library->clause_first + i];
+        add_number(r, clause->kind == TN_CLAUSE_PRUNE);
+        add_function(r, clause->holds);
+    }
+}
+
 static void add_operand(reading *r, const tn_slot *slot, int64_t value)
 {
     bool index = slot->kind == TN_SLOT_INDEX;
@@ -83,6 +96,8 @@ static void add_operand(reading *r, const tn_slot *slot, int64_t value)
         add_sum(r, (uint32_t)value);
     else if (index && slot->section == TN_SECTION_FUNCTION)
         add_function(r, (uint32_t)value);
+    else if (index && slot->section == TN_SECTION_LIBRARY)
+        add_library(r, (uint32_t)value);
     else if (index && slot->section == TN_SECTION_FIELD)
         add_number(r, (uint64_t)value - r->module->SCHEMA_records[r->schema].field_first);
     else
@@ -185,6 +200,20 @@ static bool same_sum(comparer *c, uint32_t a, uint32_t b)
     return same;
 }
 
+/* Libraries that are projected: the same clauses, in the same order. */
+static bool same_library(comparer *c, uint32_t a, uint32_t b)
+{
+    const tn_library_record *x = &c->a->LIBRARY_records[a], *y = &c->b->LIBRARY_records[b];
+    bool same = x->schema == y->schema && x->clause_count == y->clause_count;
+    for (uint32_t i = 0; same && i < x->clause_count; i++) {
+        const tn_clause_record *clause = &c->a->CLAUSE_records[x->clause_first + i];
+        const tn_clause_record *other = &c->b->CLAUSE_records[y->clause_first + i];
+        same = (clause->kind == TN_CLAUSE_PRUNE) == (other->kind == TN_CLAUSE_PRUNE);
+        add_pair(c, clause->holds, other->holds);
+    }
+    return same;
+}
+
 static bool same_operand(comparer *c, const tn_slot *slot, int64_t a, int64_t b)
 {
     if (slot->kind == TN_SLOT_STRING)
@@ -199,6 +228,8 @@ static bool same_operand(comparer *c, const tn_slot *slot, int64_t a, int64_t b)
     case TN_SECTION_FUNCTION:
         add_pair(c, (uint32_t)a, (uint32_t)b);
         return true;
+    case TN_SECTION_LIBRARY:
+        return same_library(c, (uint32_t)a, (uint32_t)b);
     default:
         return a == b;
     }

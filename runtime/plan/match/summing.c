@@ -152,6 +152,7 @@ static bool looks_around(const tn_module *module, const tn_instruction *code, ui
     case TN_OP_DISTANCE:
     case TN_OP_NEAR:
     case TN_OP_FAR:
+    case TN_OP_IMAGE:
     case TN_OP_AGAIN: /* it does not, if its circle does not; that is not looked at */
         return true;
     case TN_OP_CALL:

@@ -307,6 +307,26 @@ static tn_status run_house(tn_plan_vm *vm, vm_frame *frame, const tn_instruction
     return status;
 }
 
+/* IMAGE: the plan as a whole, or nothing. */
+static tn_status run_image(tn_plan_vm *vm, vm_frame *frame, const tn_instruction *op, tn_error *error)
+{
+    bool found = false;
+    tn_status status = add_relation(vm, &vm->stack, error);
+    if (status == TN_OK)
+        status = tn_plan_vm_image(vm, op, frame->reversed, &found, error);
+    if (status != TN_OK) {
+        if (error)
+            error->code_offset = frame->offset;
+        return status;
+    }
+    uint64_t *top = vm->stack.words + (vm->stack.count - 1) * vm->relation_size;
+    memset(top, 0, vm->relation_size * sizeof *top);
+    if (found)
+        tn_relation_row_set(top, vm->length);
+    frame->offset += op->length;
+    return TN_OK;
+}
+
 const uint64_t *tn_plan_vm_found(const tn_plan_vm *vm, uint32_t function, bool reversed)
 {
     const vm_memo *memo = &vm->memos[2 * (size_t)function + reversed];
@@ -349,6 +369,8 @@ static tn_status run_instruction(tn_plan_vm *vm, tn_error *error)
         return run_return(vm, frame, error);
     if (tn_code_asks_house(op.opcode))
         return run_house(vm, frame, &op, error);
+    if (op.opcode == TN_OP_IMAGE)
+        return run_image(vm, frame, &op, error);
 
     const tn_opcode_effect effect = tn_code_effect((uint8_t)op.opcode);
     if (effect.pops == 0 && (status = add_relation(vm, &vm->stack, error)) != TN_OK)
@@ -408,6 +430,7 @@ static tn_status evaluate(tn_plan_vm *vm, uint32_t function, const uint64_t **re
         return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "function %u is not a rule of the schema", (unsigned)function);
     const vm_memo *memo = &vm->memos[2 * (size_t)function];
     vm->work = vm->work_limit;
+    vm->tries = vm->tries_limit;
     if (!is_found(vm, memo)) {
         start_stack(vm);
         tn_status status = begin_function(vm, function, false, error);
@@ -433,6 +456,7 @@ tn_status tn_plan_vm_new(const tn_schema *schema, size_t max_length, tn_plan_vm 
     vm->max_length = max_length > 0 ? max_length : TN_VM_LENGTH_DEFAULT;
     vm->memory_limit = TN_VM_MEMORY_DEFAULT;
     vm->work_limit = TN_VM_WORK_DEFAULT;
+    vm->tries_limit = TN_VM_TRIES_MAX;
     vm->memos = calloc(2 * vm->module->FUNCTION_count + 1, sizeof *vm->memos);
     vm->memory = 2 * vm->module->FUNCTION_count * sizeof *vm->memos;
     tn_status status = vm->memos ? tn_plan_vm_plan(vm, NULL, 0, error) : tn_fail_memory(error);
@@ -450,6 +474,7 @@ void tn_plan_vm_free(tn_plan_vm *vm)
         return;
     for (size_t i = 0; vm->summed && i < vm->module->SUM_count; i++)
         tn_sum_free(vm->summed[i]);
+    tn_plan_vm_free_images(vm);
     free(vm->summed);
     free(vm->memos);
     free(vm->found.words);
@@ -520,6 +545,7 @@ tn_status tn_plan_vm_term(tn_plan_vm *vm, uint32_t code_begin, uint32_t code_end
                           const uint64_t **relation, size_t *words, tn_error *error)
 {
     vm->work = vm->work_limit;
+    vm->tries = vm->tries_limit;
     start_stack(vm);
     tn_status status = add_frame(vm, 0, reversed, error);
     if (status == TN_OK)

@@ -25,6 +25,7 @@ void tn_plan_vm_free(tn_plan_vm *vm);
  * operations, about a nanosecond each, for one call of tn_plan_vm_holds or tn_plan_vm_relation (E0808 past it). */
 #define TN_VM_MEMORY_DEFAULT (UINT64_C(1) << 30)
 #define TN_VM_WORK_DEFAULT (UINT64_C(1) << 37)
+#define TN_VM_TRIES_MAX (1u << 18) /* newer plans that are tried for one such call (E0808 past it); see IMAGE */
 void tn_plan_vm_limit(tn_plan_vm *vm, uint64_t memory, uint64_t work);
 
 /* From the next plan on, what the instructions at these code offsets make is empty, for coverage (borrowed; count 0:

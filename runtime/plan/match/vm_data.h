@@ -3,6 +3,7 @@
 #define TARTAN_PLAN_MATCH_VM_DATA_H
 
 #include "runtime/plan/match/vm.h"
+#include "runtime/plan/schema/classes.h"
 #include "runtime/plan/schema/sum.h"
 
 #define TN_VM_ROWS 4 /* of bits, that an operation needs beside its relations */
@@ -29,6 +30,8 @@ typedef struct vm_circle {
     size_t frame;        /* its place among the frames */
     bool reversed, changed;
 } vm_circle;
+
+typedef struct vm_image vm_image; /* of an IMAGE (vm_image.c) */
 
 /* Relations one after another, each of the vm's relation_size words. */
 typedef struct vm_relations {
@@ -65,6 +68,10 @@ struct tn_plan_vm {
     uint32_t *members; /* their functions */
     size_t member_count, member_capacity;
 
+    vm_image **images; /* those met so far */
+    size_t image_count, image_capacity;
+    uint64_t tries_limit, tries; /* newer plans for one call; what is left of the limit */
+
     /* Room for a plan of `room` trays and one operation on it, all in one block. */
     size_t room;
     void *room_block;
@@ -86,6 +93,10 @@ tn_status tn_plan_vm_summed(tn_plan_vm *vm, uint32_t index, const tn_sum **sum, 
 
 /* The relation of a function that has been found for this plan (or its reverse), or NULL. */
 const uint64_t *tn_plan_vm_found(const tn_plan_vm *vm, uint32_t function, bool reversed);
+
+/* IMAGE, on the plan or (reversed) on the plan turned round: is there a newer plan above it? E0808 past the tries. */
+tn_status tn_plan_vm_image(tn_plan_vm *vm, const tn_instruction *op, bool reversed, bool *found, tn_error *error);
+void tn_plan_vm_free_images(tn_plan_vm *vm);
 
 /* Runs an operation on the relations from `top` on, the last of the stack: any instruction but CALL, MIRROR and RETURN
  * (vm_operations.c). */

@@ -157,7 +157,7 @@ static void words_of(const tn_parts *parts, uint32_t part, char words[TN_RULE_WO
 static bool is_named(const tn_parts *parts, uint32_t part)
 {
     tn_part_kind kind = parts->parts[part].kind;
-    return kind == TN_PART_RULE || kind == TN_PART_COMPARISON || is_gap(parts, part);
+    return kind == TN_PART_RULE || kind == TN_PART_COMPARISON || kind == TN_PART_IMAGE || is_gap(parts, part);
 }
 
 /* Is the part a distance's separator, whose condition stands on top of its section? */

@@ -158,6 +158,54 @@ static tn_status visit_field(tn_class_finder *finder, const tn_instruction *inst
     return (values ? split_by_value : split_by_length)(finder, field) ? TN_OK : tn_fail_memory(error);
 }
 
+/* Splits every class by which classes of newer trays lie above its trays. */
+static tn_status split_by_above(tn_class_finder *finder, const tn_projection *projection, const tn_classes *newer,
+                                tn_error *error)
+{
+    tn_classes *classes = finder->classes;
+    uint32_t *seen = calloc((size_t)newer->count + 1, sizeof *seen);
+    tn_interner sets = {0};
+    tn_numbering pairs = {0};
+    tn_key set = {0};
+    bool ok = seen != NULL;
+    for (tn_tray t = 0; ok && t < finder->schema->tray_count; t++) {
+        set.size = 0;
+        ok = tn_projection_list(projection, newer->of_tray, t, seen, t + 1, &set);
+        for (size_t i = 0; i < set.size; i++)
+            set.data[i] = newer->of_tray[set.data[i]];
+        if (set.size > 1)
+            qsort(set.data, set.size, sizeof *set.data, tn_words_compare);
+        uint32_t number = ok ? tn_intern(&sets, set.data, set.size) : UINT32_MAX;
+        uint32_t pair = number == UINT32_MAX ? number : tn_number(&pairs, (uint64_t)classes->of_tray[t] << 32 | number);
+        ok = pair != UINT32_MAX;
+        classes->of_tray[t] = pair;
+    }
+    if (finder->schema->tray_count > 0)
+        classes->count = pairs.count;
+    tn_interner_clear(&sets);
+    tn_numbering_clear(&pairs);
+    free(set.data);
+    free(seen);
+    return ok ? TN_OK : tn_fail_memory(error);
+}
+
+/* Plans of a library lie above, or do not: trays differ by those above them. */
+static tn_status visit_image(tn_class_finder *finder, const tn_instruction *instruction, tn_error *error)
+{
+    tn_projection *projection = NULL;
+    tn_classes *newer = NULL;
+    tn_status status = look_at_trays(finder, error);
+    if (status == TN_OK)
+        status = tn_projection_new(finder->schema, instruction, &projection, error);
+    if (status == TN_OK)
+        status = tn_classes_above(projection, &newer, error);
+    if (status == TN_OK)
+        status = split_by_above(finder, projection, newer, error);
+    tn_classes_free(newer);
+    tn_projection_free(projection);
+    return status;
+}
+
 static tn_status visit(tn_class_finder *finder, const tn_instruction *instruction, tn_error *error)
 {
     uint32_t first = (uint32_t)instruction->first;
@@ -171,6 +219,8 @@ static tn_status visit(tn_class_finder *finder, const tn_instruction *instructio
     case TN_OP_SUM:
     case TN_OP_MIRRORED:
         return visit_field(finder, instruction, error);
+    case TN_OP_IMAGE:
+        return visit_image(finder, instruction, error);
     case TN_OP_TRAY: {
         if (finder->seen_spec[first])
             return TN_OK;
@@ -217,6 +267,19 @@ tn_status tn_classes_new(const tn_schema *schema, const uint32_t *functions, siz
                          tn_error *error)
 {
     return tn_classes_with_sums(schema, functions, count, NULL, 0, out, error);
+}
+
+tn_status tn_classes_above(const tn_projection *projection, tn_classes **out, tn_error *error)
+{
+    uint32_t count = projection->library->clause_count;
+    uint32_t *functions = calloc((size_t)count + 1, sizeof *functions);
+    if (!functions)
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; i < count; i++)
+        functions[i] = tn_projection_clause(projection, i)->holds;
+    tn_status status = tn_classes_new(projection->newer, functions, count, out, error);
+    free(functions);
+    return status;
 }
 
 tn_status tn_classes_with_sums(const tn_schema *schema, const uint32_t *functions, size_t count, const uint32_t *sums,

@@ -3,7 +3,7 @@
 #ifndef TARTAN_PLAN_SCHEMA_CLASSES_H
 #define TARTAN_PLAN_SCHEMA_CLASSES_H
 
-#include "runtime/plan/schema/schema.h"
+#include "runtime/plan/schema/projection.h"
 
 typedef struct tn_classes {
     const tn_schema *schema;
@@ -22,6 +22,8 @@ tn_status tn_classes_new(const tn_schema *schema, const uint32_t *functions, siz
 /* The same where trays also differ by what they count in SUM records, and by their parts. */
 tn_status tn_classes_with_sums(const tn_schema *schema, const uint32_t *functions, size_t count, const uint32_t *sums,
                                size_t sum_count, tn_classes **classes, tn_error *error);
+/* Of the newer trays of a projection: what the clauses of its library tell apart. */
+tn_status tn_classes_above(const tn_projection *projection, tn_classes **classes, tn_error *error);
 /* Splits the classes further, so that no class holds trays of two of the other ones: of the same schema, or of the same
  * trays in another module. */
 tn_status tn_classes_refine(tn_classes *classes, const tn_classes *other, tn_error *error);

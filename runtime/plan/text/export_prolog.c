@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "runtime/module/code.h"
+#include "runtime/plan/schema/projection.h"
 #include "runtime/plan/schema/sum.h"
 #include "runtime/plan/text/prolog_writing.h"
 
@@ -552,11 +553,17 @@ static void put_clause(writing *w, const tn_library_record *library, const tn_cl
 /* A library is nothing without one of its clauses. */
 static tn_status check_clause(const writing *w, const tn_clause_record *clause, tn_error *error)
 {
+    tn_instruction image;
     if (w->said[clause->holds])
         return TN_OK;
     tn_status status = tn_fail(error, TN_INVALID, E_NO_PARTS, "the clause `%s` is not exported to Prolog",
                                tn_text(w->module, clause->name));
-    tn_error_help(error, "the program has no words for all of it: it can be matched, explained, drawn and counted");
+    if (tn_function_is_image(w->module, clause->holds, &image))
+        tn_error_help(error,
+                      "it asks for plans of another schema, and the program has the trays of one: export the rules of "
+                      "that schema from a file without this library");
+    else
+        tn_error_help(error, "the program has no words for all of it: it can be matched, explained, drawn and counted");
     if (error)
         error->code_offset = w->module->FUNCTION_records[clause->holds].code_begin;
     return status;

@@ -984,6 +984,38 @@ static void test_params(void **state)
     finish_live(&l);
 }
 
+/* A library that is projected: where its schema and the other library are, and which schemas may stand there. */
+static void test_projected(void **state)
+{
+    static const char uri[] = "file:///nowhere/onto.plan";
+    static const char text[] = "schema row { width = 3m | 4m }\n"
+                               "schema zoned-row from row { zone bay = open(1m) | none }\n"
+                               "schema shed { depth = 2m }\n"
+                               "library zoned using zoned-row { trays 1..3 }\n"
+                               "library bare from zoned onto row { prune tray(4m) }\n";
+    (void)state;
+    live l;
+    start_live(&l);
+    open_document(&l.session, uri, text);
+    size_t onto = (size_t)(strstr(text, "onto row") - text);
+    json_t *answer = hear_answer(&l, ask(&l.session, "textDocument/definition", at(uri, text, onto + 5)));
+    assert_true(mentions(answer, "\"line\":0"));
+    json_decref(answer);
+    answer = hear_answer(&l, ask(&l.session, "textDocument/hover", at(uri, text, onto)));
+    assert_true(mentions(answer, "without their newer fields"));
+    json_decref(answer);
+    answer = hear_answer(&l, ask(&l.session, "textDocument/completion", at(uri, text, onto + 5)));
+    assert_true(mentions(answer, "\"row\"") && !mentions(answer, "\"shed\"") && !mentions(answer, "\"zoned-row\""));
+    json_decref(answer);
+    json_t *params = at(uri, text, onto + 5);
+    json_object_set_new(params, "newName", json_string("bays"));
+    answer = hear_answer(&l, ask(&l.session, "textDocument/rename", params));
+    assert_int_equal(
+        json_array_size(json_object_get(json_object_get(json_object_get(answer, "result"), "changes"), uri)), 3);
+    json_decref(answer);
+    finish_live(&l);
+}
+
 /* Also of a form in a file that is used. */
 static void test_places_of_used(void **state)
 {
@@ -1237,6 +1269,7 @@ int main(void)
         cmocka_unit_test(test_places),
         cmocka_unit_test(test_choices),
         cmocka_unit_test(test_params),
+        cmocka_unit_test(test_projected),
         cmocka_unit_test(test_places_of_used),
         cmocka_unit_test(test_rule_actions),
         cmocka_unit_test(test_rule_actions_later),

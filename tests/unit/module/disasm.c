@@ -122,16 +122,22 @@ static void test_sample(void **state)
         "     177  WHERE\n"
         "     178  TRAY        spec 1  width 4'\n"
         "     183  OR\n"
-        "     184  RETURN\n"
+        "     184  ONCE\n"
+        "     185  RETURN\n"
         "\n"
         "function 4 (circle row) of toy, stack 2\n"
         "  ; toy.plan:4: rule pair = neighbour(tray(4'), tray(4'))\n"
-        "     185  TRAY        spec 1  width 4'\n"
-        "     190  NONEMPTY\n"
-        "     191  AGAIN       function 4 (circle row)\n"
-        "     196  OPTIONAL\n"
-        "     197  CHAIN\n"
-        "     198  RETURN\n");
+        "     186  TRAY        spec 1  width 4'\n"
+        "     191  NONEMPTY\n"
+        "     192  AGAIN       function 4 (circle row)\n"
+        "     197  OPTIONAL\n"
+        "     198  CHAIN\n"
+        "     199  RETURN\n"
+        "\n"
+        "function 5 (holds toys) of toy, stack 1\n"
+        "  ; toy.plan:5: library toys using toy { trays 1..6 prune pair }\n"
+        "     200  IMAGE       library toys onto toy\n"
+        "     209  RETURN\n");
     free(text);
 }
 

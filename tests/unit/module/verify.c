@@ -265,7 +265,7 @@ static void test_rules_and_libraries(void **state)
     const char *reason = "rule 0 names a function of another kind or schema";
     REFUSED(RULE, tn_rule_record, 0, whole = 2, reason);
     REFUSED(RULE, tn_rule_record, 0, holds = 1, reason);
-    REFUSED(RULE, tn_rule_record, 0, holds = 5, "rule 0: holds is function 5, which is not there");
+    REFUSED(RULE, tn_rule_record, 0, holds = 6, "rule 0: holds is function 6, which is not there");
     REFUSED(RULE, tn_rule_record, 0, holds = 0, reason);
     REFUSED(RULE, tn_rule_record, 0, schema = 1, "rule 0: schema is schema 1, which is not there");
     REFUSED(RULE, tn_rule_record, 0, flags = 2, "rule 0: flags has unknown bits");
@@ -275,7 +275,7 @@ static void test_rules_and_libraries(void **state)
     REFUSED(LIBRARY, tn_library_record, 0, clause_count = 1, "it has clause records that belong to no library record");
     REFUSED(LIBRARY, tn_library_record, 0, clause_count = 3, "library 0: its run of clause records does not follow");
     REFUSED(LIBRARY, tn_library_record, 0, clause_first = 1, "library 0: its run of clause records does not follow");
-    REFUSED(CLAUSE, tn_clause_record, 0, kind = TN_CLAUSE_KIND_COUNT, "clause 0: kind is 4; 0 to 3 are possible");
+    REFUSED(CLAUSE, tn_clause_record, 0, kind = TN_CLAUSE_KIND_COUNT, "clause 0: kind is 5; 0 to 4 are possible");
     REFUSED(CLAUSE, tn_clause_record, 0, holds = 1, "clause 0 names a function of another kind or schema");
     tn_builder *builder = sample_builder();
     tn_builder_add_PRODUCER(builder, &(tn_producer_record){0});
@@ -318,21 +318,59 @@ static tn_builder *with_code(tn_function_kind kind, uint32_t stack_max, const in
 #define RETURN TN_OP_RETURN, 0, 0
 #define ANSWER TN_OP_ANSWER, 0, 0
 
+/* Libraries above one another: each asks for plans of the one before. */
+static void test_images(void **state)
+{
+    (void)state;
+    REFUSED(CLAUSE, tn_clause_record, 0, holds = 5,
+            "function 5 asks library 0, which has functions that are not lower");
+    tn_builder *deep[2] = {sample_builder(), sample_builder()};
+    for (uint32_t i = 0; i < 16; i++)
+        for (uint32_t b = i == 15; b < 2; b++) {
+            char name[16];
+            snprintf(name, sizeof name, "toys-%u", (unsigned)i);
+            tn_builder_add_LIBRARY(deep[b], &(tn_library_record){.name = tn_builder_string(deep[b], name),
+                                                                 .clause_first = 2 + i,
+                                                                 .clause_count = 1});
+            tn_builder_add_CLAUSE(deep[b], &(tn_clause_record){.name = tn_builder_string(deep[b], "toys"),
+                                                               .kind = TN_CLAUSE_ONTO,
+                                                               .holds = 5 + i});
+            uint32_t begin = tn_builder_offset(deep[b]);
+            tn_builder_emit(deep[b], TN_OP_IMAGE, 1 + i, 0);
+            tn_builder_emit(deep[b], TN_OP_RETURN, 0, 0);
+            tn_builder_add_FUNCTION(deep[b], &(tn_function_record){.kind = TN_FUNCTION_HOLDS,
+                                                                   .code_begin = begin,
+                                                                   .code_end = tn_builder_offset(deep[b]),
+                                                                   .stack_max = 1});
+        }
+    expect(deep[0], TN_OK, NULL);
+    expect(deep[1], TN_INVALID, "more than 16 libraries lie above one another");
+}
+
 static void test_operands(void **state)
 {
     (void)state;
     tn_function_kind rule = TN_FUNCTION_HOLDS, condition = TN_FUNCTION_CONDITION;
     expect(with_code(rule, 9, CODE(TN_OP_TRAY, 1, 0, RETURN)), TN_OK, NULL);
     expect(with_code(rule, 9, CODE(TN_OP_TRAY, 2, 0, RETURN)), TN_INVALID, "there is no spec 2");
-    expect(with_code(rule, 9, CODE(TN_OP_CALL, 5, 0, RETURN)), TN_INVALID, "function 5, which is not a lower one");
-    expect(with_code(rule, 9, CODE(TN_OP_CALL, 6, 0, RETURN)), TN_INVALID, "there is no function 6");
+    expect(with_code(rule, 9, CODE(TN_OP_CALL, 6, 0, RETURN)), TN_INVALID, "function 6, which is not a lower one");
+    expect(with_code(rule, 9, CODE(TN_OP_CALL, 7, 0, RETURN)), TN_INVALID, "there is no function 7");
     expect(with_code(rule, 9, CODE(TN_OP_CALL, 4, 0, RETURN)), TN_OK, NULL);
     expect(with_code(rule, 9, CODE(TN_OP_AGAIN, 4, 0, RETURN)), TN_INVALID, "is not in a circle with it");
     expect(with_code(TN_FUNCTION_CIRCLE, 9, CODE(TN_OP_AGAIN, 1, 0, RETURN)), TN_INVALID, "is not in a circle with it");
-    expect(with_code(TN_FUNCTION_CIRCLE, 9, CODE(TN_OP_AGAIN, 5, 0, RETURN)), TN_OK, NULL);
+    expect(with_code(TN_FUNCTION_CIRCLE, 9, CODE(TN_OP_AGAIN, 6, 0, RETURN)), TN_OK, NULL);
     expect(with_code(rule, 9, CODE(TN_OP_CALL, 1, 0, TN_OP_REPEATED, 2, 0, RETURN)), TN_OK, NULL);
     expect(with_code(rule, 9, CODE(TN_OP_CALL, 1, 0, TN_OP_REPEATED, 0, 2, RETURN)), TN_INVALID, "is cut into 1 to");
     expect(with_code(rule, 9, CODE(TN_OP_CALL, 1, 0, TN_OP_REPEATED, 3, 2, RETURN)), TN_INVALID, "is cut into 1 to");
+    expect(with_code(rule, 9, CODE(TN_OP_IMAGE, 0, 0, RETURN)), TN_OK, NULL);
+    expect(with_code(rule, 9, CODE(TN_OP_IMAGE, 1, 0, RETURN)), TN_INVALID, "there is no library 1");
+    expect(with_code(rule, 9, CODE(TN_OP_IMAGE, 0, 1, RETURN)), TN_INVALID, "there is no schema 1");
+    expect(with_code(TN_FUNCTION_WHOLE, 9, CODE(TN_OP_IMAGE, 0, 0, RETURN)), TN_INVALID,
+           "asks for plans of library 0 beside other things");
+    expect(with_code(rule, 9, CODE(TN_OP_IMAGE, 0, 0, TN_OP_NOT, 0, 0, RETURN)), TN_INVALID,
+           "asks for plans of library 0 beside other things");
+    expect(with_code(rule, 9, CODE(TN_OP_CALL, 5, 0, RETURN)), TN_INVALID,
+           "calls function 5, which asks for plans of another library");
     expect(with_code(rule, 9, CODE(TN_OP_MIRROR, 0, 0, RETURN)), TN_INVALID, "function 0, which is not part of a rule");
     expect(with_code(rule, 9, CODE(TN_OP_CALL, 1, 0, TN_OP_QUANTITY, 1, 0, RETURN)), TN_INVALID,
            "function 1 is no condition");
@@ -432,6 +470,7 @@ int main(void)
         cmocka_unit_test(test_places),
         cmocka_unit_test(test_rules_and_libraries),
         cmocka_unit_test(test_functions),
+        cmocka_unit_test(test_images),
         cmocka_unit_test(test_operands),
         cmocka_unit_test(test_stack),
         cmocka_unit_test(test_map),
