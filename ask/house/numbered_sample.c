@@ -4,13 +4,16 @@
 
 #include "ask/house/diverse.h"
 #include "ask/house/numbered.h"
+#include "runtime/base/array.h"
 #include "runtime/base/random.h"
 
 /* The ranks that are drawn, ascending, and how far the plans have come. */
 typedef struct tn_house_sample {
     mpz_t *ranks;
     size_t room, count, next;
-    mpz_t before;      /* houses on the plans before */
+    mpz_t before;   /* houses on the plans before */
+    mpz_t *on_plan; /* how many houses are on each plan, where they are counted plan by plan; owned */
+    size_t plans, plan_room, plan;
     tn_houses *houses; /* where they are counted tray by tray, or NULL */
     tn_sampled_house *use;
     void *context;
@@ -22,6 +25,9 @@ static void sample_clear(tn_house_sample *s)
         mpz_clear(s->ranks[i]);
     free(s->ranks);
     mpz_clear(s->before);
+    for (size_t i = 0; i < s->plans; i++)
+        mpz_clear(s->on_plan[i]);
+    free(s->on_plan);
 }
 
 static tn_status sample_draw(tn_house_sample *s, uint64_t seed, const mpz_t bound, size_t wanted, tn_error *error)
@@ -34,17 +40,17 @@ static tn_status sample_draw(tn_house_sample *s, uint64_t seed, const mpz_t boun
     return tn_ranks_sample(seed, 0, bound, wanted, s->ranks, &s->count, error);
 }
 
-/* Adds the houses of a plan to the number of all. */
-static tn_status add_plan(tn_numbered *n, void *context, const tn_tray *trays, uint32_t length, bool *stop,
-                          tn_error *error)
+/* Counts the houses on a plan, which are added to those before. */
+static tn_status count_plan(tn_numbered *n, void *context, const tn_tray *trays, uint32_t length, bool *stop,
+                            tn_error *error)
 {
-    mpz_ptr all = context;
-    mpz_t houses;
+    tn_house_sample *s = context;
     (void)stop;
-    mpz_init(houses);
-    tn_status status = tn_numbered_houses_on(n, trays, length, houses, error);
-    mpz_add(all, all, houses);
-    mpz_clear(houses);
+    if (!tn_array_reserve(&s->on_plan, &s->plan_room, s->plans, 1, sizeof *s->on_plan))
+        return tn_fail_memory(error);
+    mpz_init(s->on_plan[s->plans]);
+    tn_status status = tn_numbered_houses_on(n, trays, length, s->on_plan[s->plans++], error);
+    mpz_add(s->before, s->before, s->on_plan[s->plans - 1]);
     return status;
 }
 
@@ -77,9 +83,9 @@ static tn_status use_plan(tn_numbered *n, void *context, const tn_tray *trays, u
 {
     tn_house_sample *s = context;
     mpz_t variant, end;
+    tn_status status = TN_OK;
     mpz_inits(variant, end, NULL);
-    tn_status status = tn_numbered_houses_on(n, trays, length, end, error);
-    mpz_add(end, end, s->before);
+    mpz_add(end, s->before, s->on_plan[s->plan++]);
     while (status == TN_OK && s->next < s->count && mpz_cmp(s->ranks[s->next], end) < 0) {
         mpz_sub(variant, s->ranks[s->next], s->before);
         status = use_house(n, s, trays, length, variant, s->ranks[s->next], error);
@@ -137,14 +143,13 @@ static tn_status sample_one_by_one(tn_numbered *n, const tn_plan *plan, size_t w
                                    tn_sampled_house *use, void *context, tn_error *error)
 {
     tn_house_sample s = {.use = use, .context = context};
-    mpz_t all;
-    mpz_inits(s.before, all, NULL);
-    tn_status status = visit_plans(n, plan, add_plan, all, error);
+    mpz_init(s.before);
+    tn_status status = visit_plans(n, plan, count_plan, &s, error);
     if (status == TN_OK)
-        status = sample_draw(&s, seed, all, wanted, error);
+        status = sample_draw(&s, seed, s.before, wanted, error);
+    mpz_set_ui(s.before, 0);
     if (status == TN_OK && s.count > 0)
         status = visit_plans(n, plan, use_plan, &s, error);
-    mpz_clear(all);
     sample_clear(&s);
     return status;
 }

@@ -15,10 +15,13 @@ static tn_status too_many(const tn_houses_kind *kind, tn_error *error)
 {
     const char *name = tn_frontier_largest(kind->frontier);
     if (name)
-        tn_error_help(error, "`%.60s` keeps most apart. Ask about one plan (--plan), or allow more (--max-states N)",
+        tn_error_help(error,
+                      "`%.60s` keeps most apart. Ask about fewer trays (--trays) or one plan (--plan), or allow "
+                      "more (--max-states N)",
                       name);
     else
-        tn_error_help(error, "ask about one plan (--plan), or allow more (--max-states N)");
+        tn_error_help(error, "ask about fewer trays (--trays) or one plan (--plan), or allow more (--max-states "
+                             "N)");
     return TN_LIMIT;
 }
 
@@ -27,11 +30,12 @@ static tn_status too_many(const tn_houses_kind *kind, tn_error *error)
  */
 enum { OTHERS_A_STATE = 8 };
 
+/* others: nodes within a step that count as one state. */
 static tn_status check_nodes(const tn_houses *h, const tn_houses_kind *kind, uint32_t layer, uint64_t nodes,
-                             tn_error *error)
+                             uint32_t others, tn_error *error)
 {
     bool states = layer % tn_houses_stages(h, kind) == 0;
-    if ((states ? nodes : nodes / OTHERS_A_STATE) <= h->max_states && kind->frontier->states.count <= h->max_states)
+    if ((states ? nodes : nodes / others) <= h->max_states && kind->frontier->states.count <= h->max_states)
         return TN_OK;
     tn_fail(error, TN_LIMIT, E_FRONTIER, "counting these houses takes more than %u states", h->max_states);
     return too_many(kind, error);
@@ -103,7 +107,7 @@ static tn_status add_counts(void *context, void *sum, const void *element, const
     const tn_houses_edge *edge = at->label;
     if (c->layer != at->layer + 1)
         begin_layer(c, at->layer);
-    tn_status status = check_nodes(c->houses, c->kind, at->layer + 1, c->nodes + at->to, error);
+    tn_status status = check_nodes(c->houses, c->kind, at->layer + 1, c->nodes + at->to, OTHERS_A_STATE, error);
     if (status != TN_OK)
         return status;
     mpz_mul_ui(c->one, from->houses, edge->ways);
@@ -143,18 +147,29 @@ static tn_status count_kind(tn_houses *h, tn_houses_kind *kind, tn_error *error)
 
 /* ---- scouting */
 
+/* Nodes are scouted before they are counted, which takes many times as long, and what is merged in between leaves
+ * fewer, but seldom half of them. So twice as many states in all, or more nodes within a step than three times as many,
+ * are a count past the limit, which is said before it begins. */
+enum { SCOUTED_A_STATE = 2, OTHERS_A_SCOUTED = 3 };
+
 typedef struct tn_scout {
     const tn_houses *houses;
     tn_houses_kind *kind;
-    bool any; /* does a house come to its end? */
+    uint32_t layer; /* 1 and the one that is gone on from; 0: none yet */
+    uint64_t nodes; /* of all layers of states so far */
+    bool any;       /* does a house come to its end? */
 } tn_scout;
 
 static tn_status come_by(void *context, void *sum, const void *element, const tn_walk_edge *at, tn_error *error)
 {
-    const tn_scout *s = context;
+    tn_scout *s = context;
     (void)sum;
     (void)element;
-    return check_nodes(s->houses, s->kind, at->layer + 1, at->to, error);
+    if (s->layer != at->layer + 1 && at->layer % tn_houses_stages(s->houses, s->kind) == 0)
+        s->nodes += s->kind->layers[at->layer].nodes.count;
+    s->layer = at->layer + 1;
+    uint64_t more = (at->layer + 1) % tn_houses_stages(s->houses, s->kind) == 0 ? s->nodes / SCOUTED_A_STATE : 0;
+    return check_nodes(s->houses, s->kind, at->layer + 1, more + at->to, OTHERS_A_SCOUTED, error);
 }
 
 static tn_status pass_end(void *context, void *element, const tn_walk_edge *at, tn_error *error)
@@ -261,14 +276,34 @@ static bool is_doubtful(const tn_houses_kind *kind, const tn_frontier_trays *tra
     return kind->frontier->prices.asked && tn_frontier_prices_check(kind->frontier, trays->stand, &error) != TN_OK;
 }
 
-/* The doubtful ones first: if they are an error, that is said before all others are gone through. */
+/* A kind, and whether it is doubtful; how many slices it has. */
+typedef struct tn_scouted {
+    size_t kind;
+    uint32_t slices;
+    bool doubtful;
+} tn_scouted;
+
+/* The doubtful ones first, then those with more slices: if something is an error, or passes the limit, that is said
+ * before all others are gone through. */
+static int compare_scouted(const void *a, const void *b)
+{
+    const tn_scouted *p = a, *q = b;
+    return p->doubtful != q->doubtful ? (q->doubtful > p->doubtful) - (q->doubtful < p->doubtful)
+           : p->slices != q->slices   ? (q->slices > p->slices) - (q->slices < p->slices)
+                                      : (p->kind > q->kind) - (p->kind < q->kind);
+}
+
 static tn_status scout_kinds(const tn_houses *h, const tn_frontier_trays *trays, tn_error *error)
 {
-    tn_status status = TN_OK;
-    for (int doubtful = 1; doubtful >= 0; doubtful--)
-        for (size_t i = 0; status == TN_OK && i < h->kind_count; i++)
-            if (is_doubtful(&h->kinds[i], trays) == doubtful)
-                status = scout(h, &h->kinds[i], trays, error);
+    tn_scouted *order = malloc((h->kind_count + 1) * sizeof *order);
+    tn_status status = order ? TN_OK : tn_fail_memory(error);
+    for (size_t i = 0; order && i < h->kind_count; i++)
+        order[i] = (tn_scouted){i, h->kinds[i].frontier->slices.keys.count, is_doubtful(&h->kinds[i], trays)};
+    if (order && h->kind_count > 0)
+        qsort(order, h->kind_count, sizeof *order, compare_scouted);
+    for (size_t i = 0; status == TN_OK && i < h->kind_count; i++)
+        status = scout(h, &h->kinds[order[i].kind], trays, error);
+    free(order);
     return status;
 }
 
