@@ -3,6 +3,7 @@
 
 #include "ask/plan/found.h"
 #include "ask/session/requests.h"
+#include "runtime/plan/library/alone.h"
 #include "runtime/plan/ways/library_ways.h"
 #include "runtime/plan/ways/plan_ways.h"
 
@@ -22,18 +23,25 @@ tn_status tn_ways_open(tn_ways_of_plans *w, const tn_ready_library *ready, tn_er
     if (clause == UINT32_MAX)
         return TN_OK;
     const tn_module *module = ready->schema->module;
-    tn_status status = tn_derivation_read(module, module->CLAUSE_records[ready->record->clause_first + clause].holds,
-                                          &w->derivation, error);
+    uint32_t function = module->CLAUSE_records[ready->record->clause_first + clause].holds;
+    tn_instruction image;
+    if (tn_function_is_image(module, function, &image))
+        return tn_projected_new(ready->schema, &image, NULL, tn_library_max_states(ready->library),
+                                tn_library_max(ready->library), &w->projected, error);
+    tn_status status = tn_derivation_read(module, function, &w->derivation, error);
     return status == TN_OK ? tn_plan_vm_new(ready->schema, tn_library_max(ready->library), &w->vm, error) : status;
 }
 
 tn_status tn_ways_find(tn_ways_of_plans *w, const tn_tray *trays, size_t length, tn_error *error)
 {
+    if (w->projected)
+        return tn_projected_ways(w->projected, trays, length, w->ways, error);
     return w->vm ? tn_plan_ways(&w->derivation, w->vm, trays, length, w->ways, error) : TN_OK;
 }
 
 void tn_ways_close(tn_ways_of_plans *w)
 {
+    tn_projected_free(w->projected);
     tn_plan_vm_free(w->vm);
     tn_derivation_clear(&w->derivation);
     mpz_clear(w->ways);
@@ -57,8 +65,9 @@ static tn_status give(const tn_ready_library *ready, const tn_derived_ways *foun
 {
     tn_status status = TN_OK;
     counted->library = tn_text(ready->schema->module, ready->record->name);
-    counted->generate = found->clause;
-    counted->has_generate = found->clause != NULL;
+    counted->generate = counted->projected = found->clause;
+    counted->has_generate = found->clause && !found->projected;
+    counted->has_projected = found->projected;
     mpz_set(counted->plans, found->plans);
     mpz_set(counted->ways, found->ways);
     if (mpz_sgn(found->plans) > 0) {

@@ -4,14 +4,16 @@
 
 #include "ask/session/session.h"
 #include "runtime/plan/ways/derivation.h"
+#include "runtime/plan/ways/projected.h"
 
 typedef struct tn_plan_vm tn_plan_vm; /* runtime/plan/match/vm.h */
 
 /* Makes ready to ask about one plan after another. Close it in any case. */
 typedef struct tn_ways_of_plans {
     tn_derivation derivation;
-    tn_plan_vm *vm; /* NULL: nothing generates */
-    mpz_t ways;     /* of the plan asked about last */
+    tn_plan_vm *vm;          /* NULL: nothing generates */
+    tn_projected *projected; /* of a library that is projected, or NULL */
+    mpz_t ways;              /* of the plan asked about last */
 } tn_ways_of_plans;
 
 tn_status tn_ways_open(tn_ways_of_plans *ways, const tn_ready_library *ready, tn_error *error);

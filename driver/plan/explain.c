@@ -12,6 +12,7 @@
 #include "runtime/plan/picture/draw_explain.h"
 #include "runtime/plan/schema/sum.h"
 #include "runtime/plan/ways/plan_ways.h"
+#include "runtime/plan/ways/projected.h"
 
 /* ---- which parts of an explanation are shown */
 
@@ -794,6 +795,24 @@ static tn_status find_ways(const tn_explained *explained, const tn_clause_record
     return status == TN_LIMIT ? TN_OK : status;
 }
 
+/* How many plans of the other library it is, likewise. */
+static tn_status find_projected_ways(const tn_explained *explained, const tn_instruction *image,
+                                     tn_explained_rule *made, tn_error *error)
+{
+    tn_projected *projected = NULL;
+    mpz_t ways;
+    mpz_init(ways);
+    uint32_t longest = (uint32_t)explained->length;
+    tn_status status = tn_projected_new(explained->schema, image, NULL, 0, longest, &projected, error);
+    if (status == TN_OK)
+        status = tn_projected_ways(projected, explained->trays, explained->length, ways, error);
+    if (status == TN_OK && !(made->ways = mpz_get_str(NULL, 10, ways)))
+        status = tn_fail_memory(error);
+    tn_projected_free(projected);
+    mpz_clear(ways);
+    return status == TN_LIMIT ? TN_OK : status;
+}
+
 /* The first plan that is the plan with newer fields. */
 static tn_status find_above(const tn_explained *explained, const tn_instruction *image, tn_explained_rule *made,
                             tn_error *error)
@@ -827,6 +846,8 @@ static tn_status explain_made(const tn_explained *explained, const tn_clause_rec
     if (tn_function_is_image(module, clause->holds, &image)) {
         made->projected = tn_text(module, module->LIBRARY_records[image.first].name);
         status = made->holds ? find_above(explained, &image, made, error) : TN_OK;
+        if (status == TN_OK && made->holds)
+            status = find_projected_ways(explained, &image, made, error);
     }
     if (status == TN_OK && made->holds && !made->projected)
         status = find_ways(explained, clause, max_length, made, error);

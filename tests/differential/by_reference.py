@@ -137,7 +137,7 @@ def projected_by_reference(subject, file, kept):
         if line:
             explained = subject.json("explain", line)
             said = next(c for c in explained["clauses"] if c["kind"] == "onto")
-            lies = file.is_image(plan, above, fields, file.lengths(subject.item.name))
+            lies = file.images_above(plan, above, fields, file.lengths(subject.item.name)) > 0
             same("explain keeps", explained["kept"], plan.trays in those)
             same("explain says whether a plan lies above", (said["name"], said["matches"], said["drops"], "above" in said), (above, lies, not lies, lies))
 

@@ -3,6 +3,7 @@
 It knows productions by their names. What it does not know (a production that came later, a rule of a file that is used,
 houses) raises Unknown, and that is then not asked of it."""
 import itertools
+from collections import Counter
 import math
 import operator
 import re
@@ -1092,12 +1093,13 @@ class File:
         trays = tuple(tray[:len(fields)] for tray in plan.trays)
         return trays if all(v in values for tray in trays for v, (_, _, values) in zip(tray, fields)) else None
 
-    def is_image(self, plan, above, fields, lengths):
-        """Is some plan of the library above, of these lengths, the same in these fields?"""
+    def images_above(self, plan, above, fields, lengths):
+        """How many plans of the library above, of these lengths, are the same in these fields?"""
         key = above, len(fields), lengths
         if key not in self.images:
-            self.images[key] = {self.bare(p, fields) for p in File(self.root, self.schema_of(above)).kept(above, lengths)} - {None}
-        return self.bare(plan, fields) in self.images[key]
+            self.images[key] = Counter(self.bare(p, fields) for p in File(self.root, self.schema_of(above)).kept(above, lengths))
+        bare = self.bare(plan, fields)
+        return self.images[key][bare] if bare is not None else 0
 
     def plans(self, name, lengths=None):
         lengths, each = lengths or self.lengths(name), len(self.schema.trays)
@@ -1109,7 +1111,7 @@ class File:
 
     def kept(self, name, lengths=None):
         clauses, projection, lengths = self.clauses(name), self.projection(name), lengths or self.lengths(name)
-        return [p for p in self.plans(name, lengths) if (not projection or self.is_image(p, *projection, lengths)) and all(self.keeps(p, c) for c in clauses)]
+        return [p for p in self.plans(name, lengths) if (not projection or self.images_above(p, *projection, lengths)) and all(self.keeps(p, c) for c in clauses)]
 
     def keeps(self, plan, clause):
         kind = clause.production.symbols[0]
@@ -1128,7 +1130,9 @@ class File:
 
     def ways(self, plan, name):
         """In how many ways the library makes the plan, which it keeps."""
-        clause = self.generate(name)
+        clause, projection = self.generate(name), self.projection(name)
+        if projection:
+            return self.images_above(plan, *projection, self.lengths(name))
         return plan.D(clause.child("require").children[0], Env(), 0, plan.n) if clause else 1
 
     def generate(self, name):

@@ -48,7 +48,10 @@ def check(seed, folder):
     same("plans by trays", [int(n["kept"]) for n in count("bare")["by_length"]], wanted["bare"]["by_trays"])
     kept = ask("enumerate", path, "-l", "bare").split("\n")[:-1]
     same("the first plans", kept[:5], wanted["bare"]["first"])
-    same("plans with their ways", [p for p in kept[:40]], [p for p, _ in wanted["bare"]["ways"]])
+    ways = [line.split("\t") for line in ask("enumerate", path, "-l", "bare", "--ways", "--limit", "40").split("\n")[:-1]]
+    same("plans with their ways", [[plan, int(n)] for n, plan in ways], wanted["bare"]["ways"])
+    counted = json.loads(ask("count", path, "-l", "bare", "--ways", "--json"))
+    same("ways", (int(counted["ways"]), int(counted["most"] or 0)), (wanted["bare"]["all_ways"], wanted["bare"]["most_ways"]))
     longest = len(wanted["bare"]["by_trays"]) - 1
     asked = [p for p in plans if p.count("|") < longest]
     for engine in ("vm", "auto"):

@@ -181,6 +181,22 @@ def some(case, library, count):
     return case.r.sample(plans, min(count, len(plans)))
 
 
+def in_ways(case, path, library):
+    """How many plans of the other library each plan is without their newer fields: in all, of the most, and of each."""
+    if not library.above:
+        return
+    plans = [case.bare(library.schema, p) for p in library.above.kept]
+    numbers = [plans.count(p) for p in library.kept]
+    said = json.loads(ask("count", path, "-l", library.name, "--ways", "--json"))
+    same("ways", (int(said["plans"]), int(said["ways"]), said["projected"]), (len(numbers), sum(numbers), library.above.name))
+    same("plans by their ways", [[int(n) for n in row] for row in said["distribution"]], sorted([n, numbers.count(n)] for n in set(numbers)))
+    if numbers:
+        most = max(numbers)
+        same("most", (int(said["most"]), said["first"]), (most, as_line(library.kept[numbers.index(most)])))
+    listed = ask("enumerate", path, "-l", library.name, "--ways").split("\n")[:-1]
+    same("ways of each", [int(line.split("\t")[0]) for line in listed], numbers)
+
+
 def explained(case, path, library):
     """The first plan above one that is kept; of one that is not, which clause drops it, and the nearest plans."""
     held = {str(p): n for n, p in enumerate(library.kept)}
@@ -195,7 +211,8 @@ def explained(case, path, library):
         above = [p for p in library.above.kept if case.bare(library.schema, p) == plan] if library.above else []
         clause = next((c for c in said["clauses"] if c["kind"] == "onto" and library.above and c["name"] == library.above.name), None)
         if clause:
-            same("a plan above `%s`" % as_line(plan), (clause["matches"], clause.get("above")), (bool(above), as_line(above[0]) if above else None))
+            same("a plan above `%s`" % as_line(plan), (clause["matches"], clause.get("above"), clause.get("ways")),
+                 (bool(above), as_line(above[0]) if above else None, str(len(above)) if above else None))
 
 
 def distance(plan, other, fields):
@@ -262,7 +279,7 @@ def laid_out(case, path, library):
     same("words", "".join(once.split()), "".join(case.text.split()))
 
 
-QUESTIONS = (listed, counted, decided, explained, longer, tested, compared, built)
+QUESTIONS = (listed, counted, in_ways, decided, explained, longer, tested, compared, built)
 
 
 def check(seed, folder):

@@ -241,26 +241,46 @@ static tn_status project(projecting *p, const tn_classes *classes, tn_bounds *bo
     return status;
 }
 
-static tn_status lower(const tn_projection *projection, const tn_classes *newer, const tn_classes *classes,
-                       const tn_image_options *options, tn_dfa **out, tn_error *error)
+static uint32_t joined_states(uint32_t max_states)
 {
-    uint32_t joined = options->max_states == TN_STATES_DEFAULT ? JOINED_STATES_DEFAULT : options->max_states;
-    joining j = {projection, newer, .max_trays = options->max_trays, .bounds = tn_bounds_make(joined)};
-    tn_sparse *plans = NULL;
+    return max_states == 0 || max_states == TN_STATES_DEFAULT ? JOINED_STATES_DEFAULT : max_states;
+}
+
+static tn_status join_all(const tn_projection *projection, const tn_classes *newer, const tn_image_options *options,
+                          tn_sparse **out, tn_error *error)
+{
+    joining j = {projection, newer, .max_trays = options->max_trays};
+    j.bounds = tn_bounds_make(joined_states(options->max_states));
     j.bounds.watch = projection->schema->module->watch;
     j.order = calloc((size_t)projection->library->clause_count + 1, sizeof *j.order);
     tn_status status =
         j.order ? tn_image_clauses(projection, newer, options, &j.clauses, error) : tn_fail_memory(error);
     if (status == TN_OK) {
         find_order(&j);
-        status = join(&j, &plans, error);
+        status = join(&j, out, error);
     }
     tn_image_clauses_free(projection, j.clauses);
     free(j.order);
+    return status;
+}
+
+tn_status tn_lower_above(const tn_projection *projection, const tn_classes *newer, uint32_t max_states,
+                         uint32_t max_trays, tn_sparse **out, tn_error *error)
+{
+    tn_image_options options = {.max_states = max_states, .max_trays = max_trays};
+    return join_all(projection, newer, &options, out, error);
+}
+
+static tn_status lower(const tn_projection *projection, const tn_classes *newer, const tn_classes *classes,
+                       const tn_image_options *options, tn_dfa **out, tn_error *error)
+{
+    tn_sparse *plans = NULL;
+    tn_status status = join_all(projection, newer, options, &plans, error);
     if (status == TN_OK) { /* of a rule alone, which is to be matched, as of any rule; in a library as of its clauses */
+        uint32_t states = options->max_trays > 0 ? joined_states(options->max_states) : options->max_states;
         projecting p = {projection, newer, plans, .steps = 0};
-        tn_bounds bounds = tn_bounds_make(options->max_trays > 0 ? joined : options->max_states);
-        bounds.watch = j.bounds.watch;
+        tn_bounds bounds = tn_bounds_make(states);
+        bounds.watch = projection->schema->module->watch;
         status = project(&p, classes, &bounds, out, error);
     }
     tn_sparse_free(plans);

@@ -7,6 +7,7 @@
 #define TARTAN_PLAN_MATCH_LOWER_H
 
 #include "runtime/automata/marked.h"
+#include "runtime/automata/sparse.h"
 #include "runtime/module/code.h"
 #include "runtime/plan/schema/classes.h"
 
@@ -55,6 +56,11 @@ tn_status tn_lower_operands(tn_lowering *lowering, uint32_t function, uint32_t o
  * leaves on the stack; reversed: of the plan turned round. The caller frees *out. */
 tn_status tn_lower_term(tn_lowering *lowering, uint32_t function, uint32_t code_begin, uint32_t code_end, bool reversed,
                         tn_dfa **out, tn_error *error);
+
+/* Of a projection: the plans that meet the clauses of its library, over the newer classes (tn_classes_above).
+ * max_states: of the automata of a clause. max_trays: of plans that are asked about, 0: of any. (image.c) */
+tn_status tn_lower_above(const tn_projection *projection, const tn_classes *newer, uint32_t max_states,
+                         uint32_t max_trays, tn_sparse **out, tn_error *error);
 
 /* What the constructions of this lowering share, and the bounds that they keep. */
 const tn_marked *tn_lowering_marked(const tn_lowering *lowering);

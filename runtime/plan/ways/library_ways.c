@@ -28,8 +28,9 @@ typedef struct walk {
     const tn_classes *classes;
     uint32_t least, most; /* trays */
     tn_rests *rests;
-    tn_interner pairs; /* ahead, rest */
-    tn_interner sets;  /* ahead, then each rest with its number of ways */
+    tn_projected *projected; /* or NULL */
+    tn_interner pairs;       /* ahead, rest */
+    tn_interner sets;        /* ahead, then each rest with its number of ways */
     uint64_t steps;
     uint32_t nodes, max_nodes;
     bool too_much;
@@ -41,9 +42,11 @@ uint32_t tn_library_generator(const tn_library *library)
 {
     const tn_module *module = tn_library_schema(library)->module;
     const tn_library_record *record = tn_library_record_of(library);
-    for (uint32_t i = 0; record && i < record->clause_count; i++)
-        if (module->CLAUSE_records[record->clause_first + i].kind == TN_CLAUSE_GENERATE)
+    for (uint32_t i = 0; record && i < record->clause_count; i++) {
+        uint32_t kind = module->CLAUSE_records[record->clause_first + i].kind;
+        if (kind == TN_CLAUSE_GENERATE || kind == TN_CLAUSE_ONTO)
             return i;
+    }
     return UINT32_MAX;
 }
 
@@ -380,8 +383,9 @@ static tn_status add_empty(walk *w, const tn_derivation *derivation, tn_error *e
         return TN_OK;
     mpz_init(ways);
     mpz_init_set_ui(one, 1);
-    tn_status status = tn_plan_vm_new(tn_library_schema(w->library), 0, &vm, error);
-    if (status == TN_OK)
+    tn_status status = w->projected ? tn_projected_ways(w->projected, NULL, 0, ways, error)
+                                    : tn_plan_vm_new(tn_library_schema(w->library), 0, &vm, error);
+    if (status == TN_OK && !w->projected)
         status = tn_plan_ways(derivation, vm, NULL, 0, ways, error);
     if (status == TN_OK)
         status = add_plans(w, ways, one, 0, 0, error);
@@ -430,6 +434,18 @@ static void clear_walk(walk *w)
     tn_interner_clear(&w->pairs);
     tn_interner_clear(&w->sets);
     tn_rests_free(w->rests);
+    tn_projected_free(w->projected);
+}
+
+/* Rests of a library that is projected, over letters that tell apart how many newer trays there are. */
+static tn_status make_projected(walk *w, const tn_instruction *image, tn_error *error)
+{
+    tn_status status = tn_projected_new(tn_library_schema(w->library), image, w->classes,
+                                        tn_library_max_states(w->library), w->most, &w->projected, error);
+    if (status != TN_OK)
+        return status;
+    w->classes = w->projected->letters;
+    return tn_rests_projected(w->projected, w->most, &w->rests, error);
 }
 
 static tn_status generated_ways(const tn_library *library, uint32_t clause, uint32_t max_nodes, tn_derived_ways *found,
@@ -443,13 +459,15 @@ static tn_status generated_ways(const tn_library *library, uint32_t clause, uint
               .most = tn_library_max(library),
               .max_nodes = max_nodes ? max_nodes : TN_WAYS_NODES,
               .found = found};
-    tn_derivation derivation;
+    tn_derivation derivation = {0};
+    tn_instruction image;
     found->clause = tn_text(module, record->name);
-    tn_status status = tn_derivation_read(module, record->holds, &derivation, error);
+    found->projected = tn_function_is_image(module, record->holds, &image);
+    tn_status status = found->projected ? TN_OK : tn_derivation_read(module, record->holds, &derivation, error);
     if (status == TN_OK && !(w.layers = calloc((size_t)w.most + 1, sizeof *w.layers)))
         status = tn_fail_memory(error);
     if (status == TN_OK)
-        status = make_rests(&w, &derivation, error);
+        status = found->projected ? make_projected(&w, &image, error) : make_rests(&w, &derivation, error);
     if (status == TN_OK)
         status = count_ways(&w, &derivation, error);
     clear_walk(&w);
@@ -486,7 +504,9 @@ tn_status tn_library_count_ways(const tn_library *library, uint32_t max_nodes, t
     if (mpz_sgn(found->plans) > 0)
         return generated_ways(library, clause, max_nodes, found, error);
     const tn_module *module = tn_library_schema(library)->module;
-    found->clause = tn_text(module, module->CLAUSE_records[tn_library_record_of(library)->clause_first + clause].name);
+    const tn_clause_record *record = &module->CLAUSE_records[tn_library_record_of(library)->clause_first + clause];
+    found->clause = tn_text(module, record->name);
+    found->projected = record->kind == TN_CLAUSE_ONTO;
     return TN_OK;
 }
 

@@ -14,7 +14,8 @@ typedef struct tn_derived_row {
 } tn_derived_row;
 
 typedef struct tn_derived_ways {
-    const char *clause; /* that generates; NULL: none does, and each plan is made in one way */
+    const char *clause; /* that generates, or by which it is projected; NULL: none, and each plan is made in one way */
+    bool projected;     /* ways are plans of the other library */
     mpz_t plans, ways;  /* in all */
     bool has_most;
     mpz_t most;
@@ -35,7 +36,8 @@ typedef struct tn_derived_ways {
 tn_status tn_library_count_ways(const tn_library *library, uint32_t max_nodes, tn_derived_ways *found, tn_error *error);
 void tn_derived_ways_clear(tn_derived_ways *found);
 
-/* The place of the clause that generates among those of the library, or UINT32_MAX. */
+/* The place of the clause that generates among those of the library, or of the one by which it is projected; or
+ * UINT32_MAX. */
 uint32_t tn_library_generator(const tn_library *library);
 
 #endif

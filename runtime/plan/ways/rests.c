@@ -379,10 +379,33 @@ static tn_status make_list(tn_rests *r, const configs *found, uint32_t duty, tn_
     return status;
 }
 
+/* As many ways as newer trays lead from state to state. */
+static tn_status read_projected(const tn_rests *r, uint32_t rest, uint32_t letter, tn_rest_list *list, tn_error *error)
+{
+    const tn_sparse *plans = r->projected->plans;
+    size_t size;
+    const uint32_t *pairs = tn_interned(&r->projected->above, r->projected->above_of[letter], &size);
+    tn_status status = TN_OK;
+    mpz_t ways;
+    mpz_init(ways);
+    for (size_t e = plans->first[rest]; status == TN_OK && e < plans->first[rest + 1]; e++) {
+        size_t i = 0;
+        while (i < size && pairs[i] != plans->label[e])
+            i += 2;
+        mpz_set_ui(ways, i < size ? pairs[i + 1] : 0);
+        if (i < size)
+            status = tn_rest_list_add(list, plans->target[e], ways, error);
+    }
+    mpz_clear(ways);
+    return status;
+}
+
 static tn_status read_rest(tn_rests *r, uint32_t rest, uint32_t letter, uint32_t ahead, tn_rest_list *list,
                            tn_error *error)
 {
     size_t size;
+    if (r->projected)
+        return read_projected(r, rest, letter, list, error);
     const uint32_t *words = tn_interned(&r->rests, rest, &size);
     uint32_t stack = words[0], duty = words[1], left;
     bool dead;
@@ -415,8 +438,21 @@ tn_status tn_rests_read(tn_rests *r, uint32_t rest, uint32_t letter, uint32_t ah
     return status;
 }
 
+static tn_status begin_projected(tn_rests *r, const tn_rest_list **list, tn_error *error)
+{
+    mpz_t one;
+    mpz_init_set_ui(one, 1);
+    tn_rest_list_clear(&r->begin);
+    tn_status status = r->projected->plans->states > 0 ? tn_rest_list_add(&r->begin, 0, one, error) : TN_OK;
+    mpz_clear(one);
+    *list = &r->begin;
+    return status;
+}
+
 tn_status tn_rests_begin(tn_rests *r, const tn_rest_list **list, tn_error *error)
 {
+    if (r->projected)
+        return begin_projected(r, list, error);
     uint32_t root = r->derivation->rules[r->derivation->root].first, number, stack;
     configs found = {0};
     mpz_t one;
@@ -440,6 +476,9 @@ tn_status tn_rests_ahead(tn_rests *r, uint32_t ahead, uint32_t letter, uint32_t 
     tn_key key = {0};
     size_t size;
     bool ok = true;
+    *next = TN_AHEAD_START;
+    if (r->projected)
+        return TN_OK;
     for (uint32_t f = 0; ok && f < r->fact_count; f++)
         if (r->facts[f].ahead != UINT32_MAX)
             ok = tn_key_push(
@@ -452,12 +491,16 @@ tn_status tn_rests_ahead(tn_rests *r, uint32_t ahead, uint32_t letter, uint32_t 
 uint32_t tn_rests_least(const tn_rests *r, uint32_t rest)
 {
     size_t size;
+    if (r->projected)
+        return 0;
     return r->stack_least[tn_interned(&r->rests, rest, &size)[0]];
 }
 
 bool tn_rests_end(const tn_rests *r, uint32_t rest)
 {
     size_t size;
+    if (r->projected)
+        return r->projected->plans->accept[rest];
     const uint32_t *words = tn_interned(&r->rests, rest, &size);
     return words[0] == 0 && duty_done(r, words[1]);
 }
@@ -504,6 +547,17 @@ tn_status tn_rests_new(const tn_derivation *derivation, tn_lowering *lowering, u
         tn_rests_free(r);
         return status;
     }
+    *out = r;
+    return TN_OK;
+}
+
+tn_status tn_rests_projected(const tn_projected *projected, uint32_t longest, tn_rests **out, tn_error *error)
+{
+    tn_rests *r = calloc(1, sizeof *r);
+    if (!r)
+        return tn_fail_memory(error);
+    r->projected = projected;
+    r->longest = longest;
     *out = r;
     return TN_OK;
 }

@@ -18,6 +18,7 @@
 
 #include "runtime/plan/match/lower.h"
 #include "runtime/plan/ways/derivation.h"
+#include "runtime/plan/ways/projected.h"
 
 typedef struct tn_rests tn_rests;
 
@@ -39,6 +40,9 @@ void tn_rest_list_clear(tn_rest_list *list);
  * a plan has. TN_LIMIT (E0802) if a fact's automaton passes the bounds. */
 tn_status tn_rests_new(const tn_derivation *derivation, tn_lowering *lowering, uint32_t longest, tn_rests **out,
                        tn_error *error);
+
+/* Of a projected library: the letters are those of `projected`, which is borrowed. */
+tn_status tn_rests_projected(const tn_projected *projected, uint32_t longest, tn_rests **out, tn_error *error);
 void tn_rests_free(tn_rests *rests);
 
 /* Before the first tray. The list is the rests'. A plan without trays is not asked about. */

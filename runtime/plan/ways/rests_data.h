@@ -68,7 +68,8 @@ typedef struct configs {
 } configs;
 
 struct tn_rests {
-    const tn_derivation *derivation;
+    const tn_derivation *derivation; /* or NULL: */
+    const tn_projected *projected;   /* rests are its states, and nothing is known ahead */
     uint32_t longest;
     bool tied;         /* something is at the plan's beginning or end */
     uint32_t *fact_of; /* [nodes][TN_SIDES] */
