@@ -8,6 +8,7 @@
 #include "api/compiler/compile.h"
 #include "api/plan/plan.h"
 #include "ask/house/numbered.h"
+#include "runtime/house/house.h"
 
 struct tartan_house_library {
     tn_opened opened;

@@ -7,6 +7,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/base/integers.h"
+#include "runtime/house/house.h"
 #include "runtime/module/same.h"
 
 /* ---- what differs */

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "runtime/base/integers.h"
+#include "runtime/house/house.h"
 #include "runtime/module/same.h"
 
 /* One way: the houses of `from`, asked about in the other library. */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
+#include "runtime/house/house.h"
 #include "runtime/house/line.h"
 
 /* ---- the best */

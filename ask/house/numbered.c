@@ -7,6 +7,7 @@
 
 #include "ask/session/spelled.h"
 #include "runtime/base/nearest.h"
+#include "runtime/house/house.h"
 
 tn_house_settings tn_asked_houses(const tn_library_asked *asked)
 {

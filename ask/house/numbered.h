@@ -6,7 +6,7 @@
 #include "ask/session/session.h"
 #include "driver/house/judge.h"
 #include "runtime/house/count/listing.h"
-#include "runtime/house/house.h"
+#include "runtime/house/house_names.h"
 #include "runtime/house/rank/rank.h"
 #include "runtime/plan/library/library.h"
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "ask/house/numbered.h"
+#include "runtime/house/house.h"
 
 void tn_numbered_forget_ranks(tn_numbered *n)
 {

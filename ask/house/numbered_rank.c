@@ -5,6 +5,7 @@
 
 #include "ask/house/numbered.h"
 #include "ask/house/typed.h"
+#include "runtime/house/house.h"
 
 /* ---- all houses */
 

@@ -6,6 +6,7 @@
 #include "ask/house/numbered.h"
 #include "runtime/base/array.h"
 #include "runtime/base/random.h"
+#include "runtime/house/house.h"
 
 /* The ranks that are drawn, ascending, and how far the plans have come. */
 typedef struct tn_house_sample {

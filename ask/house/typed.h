@@ -8,7 +8,7 @@
 
 #include "ask/session/session.h"
 #include "driver/house/judge.h"
-#include "runtime/house/house.h"
+#include "runtime/house/house_names.h"
 #include "runtime/house/line.h"
 #include "runtime/plan/library/library.h"
 

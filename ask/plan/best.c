@@ -8,6 +8,7 @@
 #include "ask/session/questions.h"
 #include "driver/open/digits.h"
 #include "driver/plan/library.h"
+#include "runtime/house/house.h"
 #include "runtime/house/rank/rank.h"
 #include "runtime/plan/library/rank.h"
 #include "runtime/plan/measure/best.h"

@@ -7,6 +7,7 @@
 #include "ask/place/kit.h"
 #include "ask/session/questions.h"
 #include "driver/open/digits.h"
+#include "runtime/house/house.h"
 
 static tn_status enumerate_houses(tn_session *session, const tn_enumerate_request *request, tn_reply *answer);
 

@@ -4,10 +4,9 @@
 
 #include "ask/plan/ways.h"
 #include "ask/session/session.h"
+#include "runtime/house/house_names.h"
 #include "runtime/plan/measure/amount.h"
 #include "runtime/plan/measure/weighed.h"
-
-typedef struct tn_house tn_house; /* runtime/house/house.h */
 
 struct tn_numbered;
 /* The measures of a library that a request goes by. */

@@ -8,6 +8,7 @@
 #include "ask/plan/found.h"
 #include "ask/session/questions.h"
 #include "driver/plan/library.h"
+#include "runtime/house/house.h"
 #include "runtime/plan/match/vm.h"
 
 /* All that are wrong are said. */

@@ -8,6 +8,7 @@
 #include "ask/session/questions.h"
 #include "ask/session/spelled.h"
 #include "driver/plan/library.h"
+#include "runtime/house/house.h"
 #include "runtime/plan/text/text.h"
 
 /* ---- the number of a plan */

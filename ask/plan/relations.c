@@ -9,6 +9,7 @@
 #include "driver/plan/analysis.h"
 #include "runtime/base/crew.h"
 #include "runtime/base/integers.h"
+#include "runtime/house/house.h"
 #include "runtime/plan/analysis/analysis.h"
 #include "runtime/plan/text/text.h"
 

@@ -8,6 +8,7 @@
 #include "ask/plan/weights.h"
 #include "ask/session/questions.h"
 #include "runtime/base/array.h"
+#include "runtime/house/house.h"
 #include "runtime/plan/library/diverse.h"
 #include "runtime/plan/measure/likelihood.h"
 

@@ -10,6 +10,7 @@
 #include "cli/common/interrupt.h"
 #include "driver/parquet/parquet.h"
 #include "driver/plan/provenance.h"
+#include "runtime/house/house.h"
 #include "runtime/plan/store/sqlite.h"
 
 /* ---- writes rows in the format that the options ask for */

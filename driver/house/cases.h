@@ -8,6 +8,7 @@
 
 #include "compiler/plan/syntax/program.h"
 #include "driver/house/judge.h"
+#include "runtime/house/house.h"
 
 typedef struct tn_house_case {
     const tn_test_block *block;

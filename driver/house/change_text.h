@@ -2,6 +2,7 @@
 #ifndef TARTAN_DRIVER_HOUSE_CHANGE_TEXT_H
 #define TARTAN_DRIVER_HOUSE_CHANGE_TEXT_H
 
+#include "runtime/house/house.h"
 #include "runtime/house/rule/change.h"
 
 /* TRAY.ZONE.STOREY, trays from 1: "2.body.ground". */

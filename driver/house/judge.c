@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/house/house.h"
+
 tn_status tn_house_judge_open(const tn_module *module, uint32_t form, size_t max_length, tn_house_judge *judge,
                               tn_error *error)
 {

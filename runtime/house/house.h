@@ -11,6 +11,7 @@
 #include "runtime/base/length.h"
 #include "runtime/house/floor/rectangle.h"
 #include "runtime/house/form/form.h"
+#include "runtime/house/house_names.h"
 #include "runtime/module/code.h"
 #include "runtime/plan/text/text.h"
 
@@ -68,9 +69,6 @@ typedef struct tn_house {
     tn_house_known *known; /* or NULL */
     bool tiles_left_out;   /* by the line that it was read from: each cell has the first that fits */
 } tn_house;
-
-/* Calls back with a house, which is borrowed for the call, until *stop. */
-typedef tn_status tn_house_each(void *context, const tn_house *house, bool *stop, tn_error *error);
 
 /* Stands a plan up: its cells and faces, without functions and with walls everywhere. The trays are copied. */
 tn_status tn_house_stand(const tn_house_form *form, const tn_tray *trays, size_t length, const uint32_t *shapes,

@@ -8,7 +8,8 @@
 
 #include <string.h>
 
-#include "runtime/house/house.h"
+#include "runtime/house/house_names.h"
+#include "runtime/plan/text/text.h"
 
 #define TN_LEFT_OUT "_"
 

@@ -4,6 +4,7 @@
 #define TARTAN_TEST_HOUSE_H
 
 #include "compiler/compile.h"
+#include "runtime/house/house.h"
 #include "runtime/house/rule/asked.h"
 
 typedef struct test_house {

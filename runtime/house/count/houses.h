@@ -14,7 +14,7 @@
 
 #include "runtime/house/count/listing.h"
 #include "runtime/house/frontier/frontier.h"
-#include "runtime/house/house.h"
+#include "runtime/house/house_names.h"
 #include "runtime/house/measure/measure.h"
 #include "runtime/plan/library/library.h"
 #include "runtime/plan/measure/complete.h"

@@ -69,7 +69,7 @@
 #ifndef TARTAN_HOUSE_FRONTIER_FRONTIER_H
 #define TARTAN_HOUSE_FRONTIER_FRONTIER_H
 
-#include "runtime/house/house.h"
+#include "runtime/house/house_names.h"
 #include "runtime/house/measure/measure.h"
 
 typedef struct tn_frontier tn_frontier;

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/house/house.h"
 #include "runtime/number/rational.h"
 #include "runtime/plan/measure/amount.h"
 #include "runtime/plan/schema/sum.h"

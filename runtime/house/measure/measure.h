@@ -8,7 +8,8 @@
 
 #include <gmp.h>
 
-#include "runtime/house/house.h"
+#include "runtime/base/int128.h"
+#include "runtime/house/house_names.h"
 #include "runtime/plan/measure/weighed.h"
 
 typedef struct tn_house_weight_term {

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
+#include "runtime/house/house.h"
 #include "runtime/house/rule/asked_data.h"
 #include "runtime/plan/match/condition.h"
 #include "runtime/plan/match/relation.h"

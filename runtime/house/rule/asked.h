@@ -5,7 +5,7 @@
 #ifndef TARTAN_HOUSE_RULE_ASKED_H
 #define TARTAN_HOUSE_RULE_ASKED_H
 
-#include "runtime/house/house.h"
+#include "runtime/house/house_names.h"
 #include "runtime/house/measure/measure.h"
 
 typedef struct tn_house_rules tn_house_rules;

@@ -1,6 +1,7 @@
 /* Gathers the rooms of a house, and decides on one of them: by its cells, its faces, its area. */
 #include <stdlib.h>
 
+#include "runtime/house/house.h"
 #include "runtime/house/rule/asked_data.h"
 
 tn_status tn_rooms_gather(tn_house_rules *rules, tn_error *error)

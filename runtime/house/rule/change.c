@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/house/house.h"
+
 /* Which tile a cell has. */
 typedef struct tn_own_tile {
     uint32_t tile;

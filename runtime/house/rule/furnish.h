@@ -11,7 +11,7 @@
 
 #include <gmp.h>
 
-#include "runtime/house/house.h"
+#include "runtime/house/house_names.h"
 
 typedef struct tn_furnisher tn_furnisher;
 

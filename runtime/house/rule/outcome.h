@@ -2,7 +2,8 @@
 #ifndef TARTAN_HOUSE_RULE_OUTCOME_H
 #define TARTAN_HOUSE_RULE_OUTCOME_H
 
-#include "runtime/house/house.h"
+#include "runtime/house/house_names.h"
+#include "runtime/module/code.h"
 
 typedef enum tn_outcome { TN_OUTCOME_FALSE, TN_OUTCOME_TRUE, TN_OUTCOME_OPEN } tn_outcome;
 

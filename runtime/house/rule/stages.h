@@ -2,7 +2,7 @@
 #ifndef TARTAN_HOUSE_STAGES_H
 #define TARTAN_HOUSE_STAGES_H
 
-#include "runtime/house/house.h"
+#include "runtime/house/house_names.h"
 #include "runtime/module/code.h"
 
 typedef enum tn_clause_stage {

@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "runtime/house/house.h"
 #include "runtime/house/rule/asked_data.h"
 #include "runtime/module/code.h"
 
