@@ -1,5 +1,5 @@
 /* Keeps marks of drawings; draws dimensions and levels. */
-#include "runtime/house/model/marks_parts.h"
+#include "runtime/house/model/marks.h"
 
 #include <stdio.h>
 #include <stdlib.h>

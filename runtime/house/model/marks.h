@@ -48,6 +48,7 @@ double tn_mark_width(const char *text);
 void tn_marks_dimension(tn_marks *marks, const tn_house *house, double from, double to, double at, bool upright,
                         double lettering);
 void tn_marks_line(tn_marks *marks, tn_mark_layer layer, double u0, double v0, double u1, double v1);
+void tn_marks_arc(tn_marks *marks, tn_mark_layer layer, double u0, double v0, double u1, double v1); /* a quarter */
 void tn_marks_text(tn_marks *marks, tn_mark_layer layer, double u, double v, double high, bool upright,
                    const char *text);
 

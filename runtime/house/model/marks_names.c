@@ -1,11 +1,12 @@
 /* Letters the rooms of a plan: the name of each and its area, where no furniture is below and no door swings. */
+#include "runtime/house/model/marks_names.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "runtime/base/length.h"
 #include "runtime/base/utf8.h"
-#include "runtime/house/model/marks_parts.h"
 
 #define SQUARE_FOOT_NM2 ((double)TN_FOOT_NM * (double)TN_FOOT_NM)
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "runtime/house/model/marks_parts.h"
+#include "runtime/house/model/marks_names.h"
 #include "runtime/house/model/model.h"
 
 #define TREAD_NM 254000000.0 /* 10"; more where a stair is so long that it would have more than TREADS_MOST */
