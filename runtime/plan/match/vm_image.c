@@ -144,8 +144,8 @@ static tn_status too_many(const tn_plan_vm *vm, const vm_image *image, tn_error 
 {
     tn_fail(error, TN_LIMIT, E_MATCHING_WORK,
             "looking for a plan of `%.80s` that is this plan of %zu trays without its newer fields takes more than the "
-            "limit of %llu plans",
-            tn_text(vm->module, image->projection->library->name), vm->length, (unsigned long long)vm->tries_limit);
+            "limit of %u plans",
+            tn_text(vm->module, image->projection->library->name), vm->length, TN_VM_TRIES_MAX);
     tn_error_help(error, "match shorter plans, or by automata (--engine=dfa), which list none");
     return TN_LIMIT;
 }

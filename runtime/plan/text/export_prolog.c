@@ -559,9 +559,9 @@ static tn_status check_clause(const writing *w, const tn_clause_record *clause, 
     tn_status status = tn_fail(error, TN_INVALID, E_NO_PARTS, "the clause `%s` is not exported to Prolog",
                                tn_text(w->module, clause->name));
     if (tn_function_is_image(w->module, clause->holds, &image))
-        tn_error_help(error,
-                      "it asks for plans of another schema, and the program has the trays of one: export the rules of "
-                      "that schema from a file without this library");
+        tn_error_help(
+            error, "it asks for plans of another schema, and the program has the trays of one: with --library and the "
+                   "name of another one, this is left out");
     else
         tn_error_help(error, "the program has no words for all of it: it can be matched, explained, drawn and counted");
     if (error)
@@ -569,7 +569,19 @@ static tn_status check_clause(const writing *w, const tn_clause_record *clause, 
     return status;
 }
 
-static tn_status put_libraries(writing *w, tn_error *error)
+/* Is the library projected from one with other trays, and not the one that is asked for? Then the others are exported
+ * without it. */
+static bool is_left_out(const writing *w, const tn_library_record *library, const char *asked)
+{
+    tn_instruction image;
+    bool projected = false;
+    for (uint32_t i = 0; i < library->clause_count; i++)
+        projected |=
+            tn_function_is_image(w->module, w->module->CLAUSE_records[library->clause_first + i].holds, &image);
+    return projected && !(asked && strcmp(asked, tn_text(w->module, library->name)) == 0);
+}
+
+static tn_status put_libraries(writing *w, const char *asked, tn_error *error)
 {
     const tn_module *module = w->module;
     tn_status status = TN_OK;
@@ -582,6 +594,12 @@ static tn_status put_libraries(writing *w, tn_error *error)
         const tn_library_record *library = &module->LIBRARY_records[l];
         if (&module->SCHEMA_records[library->schema] != w->schema->record)
             continue;
+        if (is_left_out(w, library, asked)) {
+            put(w, "% ");
+            put_comment(w, tn_text(module, library->name));
+            put(w, " is projected from a library with other trays, and is left out.\n");
+            continue;
+        }
         put(w, "trays_of(");
         put_atom(w, tn_text(module, library->name), NULL);
         w->ok =
@@ -732,7 +750,7 @@ static tn_status write_program(writing *w, const tn_prolog_options *options, tn_
         status = put_rules(w, error);
     put_rule_names(w);
     if (status == TN_OK)
-        status = put_libraries(w, error);
+        status = put_libraries(w, options->library, error);
     if (status == TN_OK)
         status = put_asked(w, error);
     if (options->fetch)
