@@ -215,7 +215,8 @@ static uint8_t product_accepts(const tn_product *product, uint64_t pair)
     }
 }
 
-static tn_status product_row(tn_product *product, uint32_t state, tn_error *error)
+/* over: no longer word matters. */
+static tn_status product_row(tn_product *product, uint32_t state, bool over, tn_error *error)
 {
     uint32_t columns = product->join.columns;
     if (!tn_array_reserve_from(&product->delta, &product->capacity, 32, state, 1, columns * sizeof *product->delta))
@@ -226,7 +227,8 @@ static tn_status product_row(tn_product *product, uint32_t state, tn_error *erro
     const uint32_t *b = product->b->delta + (size_t)(uint32_t)pair * product->b->columns;
     for (uint32_t c = 0; c < columns; c++) {
         const uint32_t *pick = product->join.pick + (size_t)c * 2;
-        row[c] = pair == SETTLED ? state : tn_number(&product->pairs, product_pair(product, a[pick[0]], b[pick[1]]));
+        row[c] =
+            over || pair == SETTLED ? state : tn_number(&product->pairs, product_pair(product, a[pick[0]], b[pick[1]]));
         if (row[c] == UINT32_MAX)
             return tn_fail_memory(error);
     }
@@ -237,8 +239,9 @@ static tn_status product_explore(tn_product *product, const char *what, tn_bound
 {
     if (tn_number(&product->pairs, product_pair(product, 0, 0)) == UINT32_MAX)
         return tn_fail_memory(error);
+    tn_depth depth = tn_depth_begin(bounds);
     for (uint32_t s = 0; s < product->pairs.count; s++) {
-        tn_status status = product_row(product, s, error);
+        tn_status status = product_row(product, s, tn_depth_over(&depth, s, product->pairs.count), error);
         if (status == TN_OK)
             status = tn_bounds_check(bounds, what, product->pairs.count, product->join.columns, product->join.columns,
                                      error);

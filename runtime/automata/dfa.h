@@ -34,7 +34,8 @@ typedef struct tn_bounds {
     uint64_t max_words;       /* of 32 bits, in the sets that name the states of a subset construction */
     uint64_t max_work;        /* elementary steps in all */
     uint64_t work;
-    tn_watch *watch; /* or NULL: gives up (TN_STOPPED) once this says so */
+    uint32_t longest; /* constructions may be wrong of words with more letters, and so need fewer states; 0: of none */
+    tn_watch *watch;  /* or NULL: gives up (TN_STOPPED) once this says so */
 } tn_bounds;
 
 /* The defaults for everything but the states: 64 M transitions and as many words (256 MB each), 2 G steps (a minute at
@@ -45,6 +46,28 @@ tn_bounds tn_bounds_make(uint32_t max_states);
  * them; or TN_STOPPED. */
 tn_status tn_bounds_check(tn_bounds *bounds, const char *what, uint64_t states, uint64_t columns, uint64_t work,
                           tn_error *error);
+
+/* The layers in which a construction finds its states: those of a layer are as many letters from the start. */
+typedef struct tn_depth {
+    uint32_t to_go; /* layers behind this one */
+    uint32_t end;   /* of this one: its last state + 1 */
+} tn_depth;
+
+static inline tn_depth tn_depth_begin(const tn_bounds *bounds)
+{
+    return (tn_depth){bounds->longest ? bounds->longest : UINT32_MAX, 1};
+}
+
+/* The state is the next to be gone on from, and `count` are found. Is whatever follows it too long? Then it may lead to
+ * itself. */
+static inline bool tn_depth_over(tn_depth *depth, uint32_t state, uint32_t count)
+{
+    if (state == depth->end) {
+        depth->end = count;
+        depth->to_go--;
+    }
+    return depth->to_go == 0;
+}
 
 /* Room for an automaton, zeroed, one holder; NULL where out of memory. */
 tn_dfa *tn_dfa_new(uint32_t letters, uint32_t columns, uint32_t states);

@@ -14,12 +14,17 @@ typedef struct tn_explorer {
     size_t capacity; /* rows */
 } tn_explorer;
 
-static bool explorer_row(tn_explorer *explorer, uint32_t state)
+/* over: no longer word matters. */
+static bool explorer_row(tn_explorer *explorer, uint32_t state, bool over)
 {
     const tn_construction *construction = explorer->construction;
     uint32_t columns = construction->join->columns;
     if (!tn_array_reserve_from(&explorer->delta, &explorer->capacity, 32, state, 1, columns * sizeof *explorer->delta))
         return false;
+    for (uint32_t c = 0; over && c < columns; c++)
+        explorer->delta[(size_t)state * columns + c] = state;
+    if (over)
+        return true;
     size_t size;
     const uint32_t *key = tn_interned(&explorer->keys, state, &size);
     if (!tn_key_copy(&explorer->current, key, size))
@@ -58,9 +63,10 @@ static tn_status explorer_run(tn_explorer *explorer, const tn_key *start, const 
         status = tn_fail_memory(error);
     if (status != TN_OK)
         return status;
+    tn_depth depth = tn_depth_begin(bounds);
     for (uint32_t s = 0; s < explorer->keys.count; s++) {
         uint64_t before = effort ? *effort : 0;
-        if (!explorer_row(explorer, s))
+        if (!explorer_row(explorer, s, tn_depth_over(&depth, s, explorer->keys.count)))
             return tn_fail_memory(error);
         uint64_t work = (uint64_t)(explorer->current.size + 1) * columns + (effort ? *effort - before : 0);
         status = tn_bounds_check(bounds, construction->what, explorer->keys.count, columns, work, error);

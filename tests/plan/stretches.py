@@ -5,10 +5,11 @@ usage: stretches.py TARTAN FIRST LAST     runs the random cases of the seeds FIR
 
 The judgements M and H are those of docs/plan-language.md, "Semantics", written down once more: comparisons of sums, `number`,
 `every`, `implies`, quantifiers and rules with parameters stand inside `neighbour`, `many`, `quantity`, `occurrences` and
-`symmetric`. A case has several rules over one schema; both engines of TARTAN have to match exactly the plans that are
-matched here.
+`symmetric`. A case has several rules over one schema, and one that uses itself; both engines of TARTAN have to match
+exactly the plans that are matched here. So have automata that may have few states, which are then made for the library's
+lengths alone, or not made.
 """
-import itertools, os, random, subprocess, sys, tempfile
+import itertools, json, os, random, subprocess, sys, tempfile
 from fractions import Fraction
 
 tartan, first, last = sys.argv[1], int(sys.argv[2]), int(sys.argv[3])
@@ -105,7 +106,7 @@ def random_sum(r, deep):
 
 def random_comparison(r, deep):
     left = random_sum(r, deep)
-    op, k = r.choice(list(OPERATORS)), r.randint(0, 5)
+    op, k = r.choice(list(OPERATORS)), r.randint(0, 5) if r.random() < 0.7 else r.randint(6, 30)
     unit = "m" if left[2] else ""
     if r.random() < 0.25:
         return whole("(%s) in %d%s..%d%s" % (left[0], k, unit, k + 2, unit), lambda p, i, j: k <= left[1](p, i, j) <= k + 2)
@@ -167,35 +168,102 @@ def joined(text, word, parts):
     return Rule(text, lambda p, i, j: every([part.M(p, i, j) for part in parts]), lambda p, i, j: every([part.H(p, i, j) for part in parts]))
 
 
-RULES = 3  # a case
-faults, between, unanswered = [], 0, 0
+def circle(r, name, rule):
+    """The rule, or a row of trays with it at the right end, at the left end or in the middle."""
+    step, end = random_tray(r), random_tray(r)
+    kind = r.choice(["right", "left", "middle"])
+    around = {"right": (step, None), "left": (None, end), "middle": (step, end)}[kind]
+    text = "(%s) or neighbour(%s)" % (rule.text, ", ".join(([step.text] if around[0] else []) + [name] + ([end.text] if around[1] else [])))
+
+    def longer(p, i, j):
+        first, last = i + bool(around[0]), j - bool(around[1])
+        fits = (not around[0] or step.M(p, i, i + 1)) and (not around[1] or end.M(p, j - 1, j))
+        return first < last and fits and M(p, first, last)
+
+    def M(p, i, j):
+        return rule.M(p, i, j) or longer(p, i, j)
+
+    return Rule(text, M, lambda p, i, j: rule.H(p, i, j) or any(longer(p, a, b) for a in range(i, j) for b in range(a + 1, j + 1)))
+
+
+def fractions(folder):
+    """Sums of fractions, of which there are some hundred thousand in plans of every length, and few in short ones."""
+    trays = [(1, 97), (1, 101), (1, 103), (100, 97)]
+    path = os.path.join(folder, "fractions.plan")
+    with open(path, "w") as out:
+        out.write("""schema part { a = 1m | 100m  b = 97m | 101m | 103m  only tray(1m) or tray(b 97m) }
+rule few = neighbour(many(any)) where sum(a / b) in 0.015..2.05
+rule middle = few or neighbour(tray(1m), middle, few)
+rule left = few or neighbour(left, tray(100m))
+library few-only { trays 0..5 require few }
+library middles { trays 0..5 generate middle }
+library lefts { trays 0..5 require neighbour(tray(1m), left) prune neighbour(few, tray(1m), few) }
+""")
+
+    def few(p, i, j):
+        return i < j and Fraction("0.015") <= sum(Fraction(a, b) for a, b in p[i:j]) <= Fraction("2.05")
+
+    def middle(p, i, j):
+        return few(p, i, j) or (i < j and p[i][0] == 1 and any(middle(p, i + 1, c) and few(p, c, j) for c in range(i + 2, j)))
+
+    def left(p, i, j):
+        return few(p, i, j) or (i + 1 < j and p[j - 1][0] == 100 and left(p, i, j - 1))
+
+    def somewhere(M, p):
+        return any(M(p, i, j) for i in range(len(p)) for j in range(i + 1, len(p) + 1))
+
+    def parted(p, i, j):
+        return any(p[c][0] == 1 and few(p, i, c) and few(p, c + 1, j) for c in range(i + 1, j - 1))
+
+    kept = {"few-only": lambda p: somewhere(few, p), "middles": lambda p: middle(p, 0, len(p)),
+            "lefts": lambda p: somewhere(lambda p, i, j: p[i][0] == 1 and left(p, i + 1, j), p) and not somewhere(parted, p)}
+    for library, keeps in kept.items():
+        wanted = [sum(keeps(p) for p in itertools.product(trays, repeat=n)) for n in range(6)]
+        done = subprocess.run([tartan, "count", path, "-l", library, "--json", "--no-effects"], capture_output=True, text=True)
+        found = [int(row["kept"]) for row in json.loads(done.stdout or '{"by_length": []}')["by_length"]]
+        if found != wanted:
+            faults.append("fractions, %s: %s, and not %s: %s" % (library, found, wanted, done.stderr[-1500:]))
+
+
+RULES = 3  # a case, and one that uses itself
+STATES = 10, 16, 24, 40  # few, so that automata for every length often have more
+faults, between, unanswered, short, made = [], 0, 0, 0, 0
 
 
 def check(seed, folder, plans, lines):
     """How many rules match some plans and not others. Libraries ask for one rule each: then lengths bound the automata."""
     r = random.Random(seed)
     rules = [random_rule(r) for _ in range(RULES)]
+    rules.append(circle(r, "r%d" % RULES, rules[0]))
     path = os.path.join(folder, "case.plan")
     with open(path, "w") as out:
         out.write(SCHEMA + "".join("rule r%d = %s\n" % (k, rule.text) for k, rule in enumerate(rules)))
-        out.write("".join("library l%d { trays 1..4 require r%d }\n" % (k, k) for k in range(RULES)))
+        out.write("".join("library l%d { trays 1..4 require r%d }\n" % (k, k) for k in range(RULES + 1)))
+        out.write("".join("library s%d { trays 1..2 require r%d }\n" % (k, k) for k in range(RULES + 1)))
     return sum(check_rule(seed, path, k, rule, plans, lines) for k, rule in enumerate(rules))
 
 
 def check_rule(seed, path, k, rule, plans, lines):
-    global unanswered
+    global unanswered, short, made
     wanted = [line for line, p in zip(lines, plans) if rule.H(p, 0, len(p))]
     for engine in "vm", "dfa":
         done = subprocess.run([tartan, "prune", path, "-", "-l", "l%d" % k, "--engine", engine], input="".join(lines),
                               capture_output=True, text=True)
         found = done.stdout.splitlines(keepends=True)
         if done.returncode == 4:
-            unanswered += 1
+            unanswered += k < RULES  # a rule that uses itself in the middle is made for a library's lengths alone
         elif done.returncode != 0:
             faults.append("seed %d, %s: exit %d: %s" % (seed, engine, done.returncode, done.stderr[-1500:]))
         elif found != wanted:
             other = sorted(set(found) ^ set(wanted))[0]
             faults.append("seed %d, %s: %s %s: %s" % (seed, engine, "matches" if other in found else "does not match", other, rule.text))
+    wanted = sorted(line for line in wanted if line.count("|") < 2)
+    for states in STATES:
+        done = subprocess.run([tartan, "enumerate", path, "-l", "s%d" % k, "--max-states", str(states)], capture_output=True, text=True)
+        short += done.returncode == 4
+        made += done.returncode == 0
+        if done.returncode not in (0, 4) or done.returncode == 0 and sorted(done.stdout.splitlines(keepends=True)) != wanted:
+            faults.append("seed %d, r%d, %d states: exit %d: %s" % (seed, k, states, done.returncode, done.stderr[-1500:]))
     return 0 < len(wanted) < len(plans)
 
 
@@ -207,12 +275,14 @@ def run():
     lines = [" | ".join("%dm %s" % t for t in p) + "\n" for p in plans]
     global between
     with tempfile.TemporaryDirectory() as folder:
+        fractions(folder)
         for seed in range(first, last):
             between += check(seed, folder, plans, lines)
 
 
 run()
-print("%d rules, %d of them match some plans and not others; %d answers past a limit" % (RULES * (last - first), between, unanswered))
+print("%d rules, %d of them match some plans and not others; %d answers past a limit; with few states %d made, %d not"
+      % ((RULES + 1) * (last - first), between, unanswered, made, short))
 for fault in faults[:5]:
     print(fault)
 if between < last - first or unanswered > RULES * (last - first) // 10:

@@ -304,8 +304,11 @@ static tn_status unroll(const tn_circle_means *means, tn_circle *circle, tn_dfa 
     tn_status status = short_stretches(means->marked, means->max_trays, &within, error);
     for (uint32_t i = 0; status == TN_OK && i < circle->count; i++)
         status = tn_dfa_constant(means->marked->letters, false, &out[i], error);
+    /* A tray more at the latest once each function has had its turn. Automata that may be wrong of longer plans need
+     * not become the same again. */
+    uint64_t rounds = means->marked->bounds->longest ? (means->max_trays + UINT64_C(1)) * circle->count : UINT64_MAX;
     bool changed = true;
-    while (status == TN_OK && changed)
+    for (uint64_t n = 0; status == TN_OK && changed && n < rounds; n++)
         status = go_round(&round, within, &changed, error);
     tn_dfa_free(within);
     return status;

@@ -22,6 +22,9 @@ typedef struct tn_lowered {
     tn_error *error; /* why it failed; NULL otherwise */
 } tn_lowered;
 
+/* Words of automata have a letter for each tray, and markers: two for a stretch, and at most two stretches. */
+#define MARKERS_MAX 4u
+
 /* All rules of a lowering together may take this many times the work of one. */
 #define RULES_WORK 8
 
@@ -393,7 +396,14 @@ static tn_status lower_function(tn_lowering *lowering, uint32_t wanted, tn_key *
     return status;
 }
 
-/* Lowers a circle whose callees outside of it are lowered; a failure is kept for all of its functions. */
+/* What takes too many states for plans of every length may take fewer for those that are asked about. */
+static bool may_be_shorter(const tn_lowering *lowering, tn_status status)
+{
+    const tn_bounds *bounds = &lowering->bounds;
+    return status == TN_LIMIT && lowering->max_trays > 0 && bounds->longest == 0 && bounds->work <= bounds->max_work;
+}
+
+/* Lowers a circle whose callees outside of it are lowered; a failure that stays is kept for all of its functions. */
 static tn_status lower_circle(tn_lowering *lowering, tn_circle *circle, uint32_t form, tn_error *error)
 {
     tn_lowering_code at = {lowering, form};
@@ -410,7 +420,7 @@ static tn_status lower_circle(tn_lowering *lowering, tn_circle *circle, uint32_t
         tn_lowered *lowered = &lowering->lowered[circle->members[i] * FORM_COUNT + form];
         if (status == TN_OK)
             lowered->dfa = found[i];
-        else if (i > 0) /* of the first it is kept like that of other functions */
+        else if (i > 0 && !may_be_shorter(lowering, status)) /* of the first it is kept like that of other functions */
             keep_failure(lowered, error);
     }
     free(found);
@@ -439,16 +449,34 @@ static tn_status lower_in_circle(tn_lowering *lowering, uint32_t wanted, tn_key 
     return status;
 }
 
+static tn_status lower_wanted(tn_lowering *lowering, uint32_t wanted, tn_key *pending, tn_error *error)
+{
+    bool circle = lowering->module->FUNCTION_records[wanted / FORM_COUNT].kind == TN_FUNCTION_CIRCLE;
+    return (circle ? lower_in_circle : lower_function)(lowering, wanted, pending, error);
+}
+
+/* The same, for plans that are no longer than asked about. */
+static tn_status lower_within(tn_lowering *lowering, uint32_t wanted, tn_key *pending, tn_error *error)
+{
+    lowering->bounds.longest = lowering->max_trays + MARKERS_MAX;
+    tn_status status = lower_wanted(lowering, wanted, pending, error);
+    lowering->bounds.longest = 0;
+    return status;
+}
+
 /* Lowers the last pending function, or pushes what it needs first. */
 static tn_status lower_pending(tn_lowering *lowering, tn_key *pending, tn_error *error)
 {
     uint32_t wanted = pending->data[pending->size - 1];
     tn_lowered *lowered = &lowering->lowered[wanted];
-    bool circle = lowering->module->FUNCTION_records[wanted / FORM_COUNT].kind == TN_FUNCTION_CIRCLE;
     tn_error failure = {0};
     tn_status status = TN_OK;
     if (!lowered->dfa)
-        status = (circle ? lower_in_circle : lower_function)(lowering, wanted, pending, &failure);
+        status = lower_wanted(lowering, wanted, pending, &failure);
+    if (may_be_shorter(lowering, status)) {
+        failure = (tn_error){0};
+        status = lower_within(lowering, wanted, pending, &failure);
+    }
     if (lowered->dfa)
         pending->size--;
     if (status == TN_OK)

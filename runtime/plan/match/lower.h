@@ -21,7 +21,8 @@ tn_status tn_lowering_new(const tn_classes *classes, uint32_t max_states, tn_low
 void tn_lowering_free(tn_lowering *lowering);
 
 /* The plans that the automata will be asked about have at most so many trays: comparisons of sums are made for these,
- * and may be wrong of longer ones. Only before the first function is lowered. */
+ * and so is what would pass the limit of states for plans of every length. They may be wrong of longer ones. Only
+ * before the first function is lowered. */
 void tn_lowering_within(tn_lowering *lowering, uint32_t max_trays);
 
 /* Makes what the instructions at these code offsets give the empty relation, for coverage. Only before the first
