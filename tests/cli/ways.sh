@@ -12,6 +12,7 @@ golden empty_plan 'tartan count grown.plan --library implied --ways'
 golden free 'tartan count grown.plan --library free --ways; tartan sample grown.plan 2 --library free --ways'
 
 golden rank 'tartan rank grown.plan --library grown-rows "[room | hall | room]" --ways; tartan rank grown.plan --library grown-rows "[room | hall | room]" --ways --json'
+golden projected 'tartan count furnished.plan --library bare-rows --ways; tartan enumerate furnished.plan --library bare-rows --ways; tartan count furnished.plan --library bare-rows --ways --json'
 golden explain 'tartan explain grown.plan --library grown-rows "[room | hall | room]" --full'
 golden lines 'tartan enumerate grown.plan --library grown-rows --ways --limit 5'
 golden csv 'tartan enumerate grown.plan --library grown-rows --ways --from 4 --limit 3 --format csv'
