@@ -228,13 +228,20 @@ static bool is_image(const tn_module *module, uint32_t function)
            tn_function_is_image(module, function, &image);
 }
 
-/* Sums count in no such function. Rules do not call one, which is checked where they call. */
-static tn_status check_terms(const tn_checker *checker)
+/* Sums count in no such function, and houses are asked none. Rules do not call one, which is checked where they call.
+ */
+static tn_status check_uses(const tn_checker *checker)
 {
     const tn_module *module = checker->module;
     for (size_t i = 0; i < module->TERM_count; i++)
         if (is_image(module, module->TERM_records[i].part))
             return tn_refuse(checker, "term %zu asks for plans of another library", i);
+    for (size_t i = 0; i < module->HOUSE_CLAUSE_count; i++)
+        if (is_image(module, module->HOUSE_CLAUSE_records[i].holds))
+            return tn_refuse(checker, "house clause %zu asks for plans of another library", i);
+    for (size_t i = 0; i < module->HOUSE_RULE_count; i++)
+        if (is_image(module, module->HOUSE_RULE_records[i].holds))
+            return tn_refuse(checker, "house rule %zu asks for plans of another library", i);
     return TN_OK;
 }
 
@@ -249,7 +256,7 @@ static tn_status verify_images(const tn_checker *checker)
     bool ok = h.highest && h.library && h.function;
     tn_status status = ok ? check_heights(checker, &h) : tn_fail_memory(checker->error);
     if (status == TN_OK)
-        status = check_terms(checker);
+        status = check_uses(checker);
     free(h.highest);
     free(h.library);
     free(h.function);

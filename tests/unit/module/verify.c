@@ -324,6 +324,14 @@ static void test_images(void **state)
     (void)state;
     REFUSED(CLAUSE, tn_clause_record, 0, holds = 5,
             "function 5 asks library 0, which has functions that are not lower");
+    tn_builder *summed = sample_builder();
+    tn_builder_add_SUM(summed, &(tn_sum_record){.constant = tn_builder_string(summed, "0"), .term_count = 1});
+    tn_builder_add_TERM(summed, &(tn_term_record){.kind = TN_SUM_MATCHES,
+                                                  .factor = tn_builder_string(summed, "1"),
+                                                  .part = 5,
+                                                  .tally = TN_NO_RECORD,
+                                                  .other = TN_NO_RECORD});
+    expect(summed, TN_INVALID, "term 0 asks for plans of another library");
     tn_builder *deep[2] = {sample_builder(), sample_builder()};
     for (uint32_t i = 0; i < 16; i++)
         for (uint32_t b = i == 15; b < 2; b++) {
