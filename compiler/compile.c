@@ -153,29 +153,11 @@ static tn_status refuse_settings(tn_compilation *compilation, const tn_compile_o
     return TN_INVALID;
 }
 
-static tn_status gather_ranges(tn_compilation *compilation, tn_error *error)
-{
-    tn_number_ranges *ranges = TN_NEW(compilation->arena, tn_number_ranges);
-    if (!ranges)
-        return tn_fail_memory(error);
-    ranges->arena = compilation->arena;
-    compilation->ranges = compilation->diagnostics.ranges = ranges;
-    return TN_OK;
-}
-
 tn_status tn_compile_text(const tn_notation *notation, const tn_input *input, const tn_compile_options *options,
                           tn_compilation *compilation)
 {
     tn_error error = {0};
-    uint32_t file;
-    *compilation = (tn_compilation){.notation = notation, .input = input};
-    tn_diagnostics_init(&compilation->diagnostics, &compilation->sources);
-    compilation->arena = tn_arena_new();
-    tn_status status = compilation->arena
-                           ? tn_sources_add(&compilation->sources, input->name, input->text, input->size, &file, &error)
-                           : tn_fail_memory(&error);
-    if (status == TN_OK)
-        status = gather_ranges(compilation, &error);
+    tn_status status = tn_compilation_start(compilation, notation, input, &error);
     if (status == TN_OK)
         status = tn_watch_check(options->watch, &error);
     if (status == TN_OK && options->params.count > 0 && !notation->front->settable)
@@ -189,13 +171,4 @@ tn_status tn_compile_text(const tn_notation *notation, const tn_input *input, co
     tn_diagnostics_sort(&compilation->diagnostics);
     compilation->input = NULL;
     return status;
-}
-
-void tn_compilation_clear(tn_compilation *compilation)
-{
-    tn_diagnostics_clear(&compilation->diagnostics);
-    tn_sources_clear(&compilation->sources);
-    tn_arena_free(compilation->arena);
-    free(compilation->module);
-    *compilation = (tn_compilation){0};
 }

@@ -63,6 +63,4 @@ void tn_notation_help(const tn_notation *notation, char *text, size_t size);
 tn_status tn_compile_text(const tn_notation *notation, const tn_input *input, const tn_compile_options *options,
                           tn_compilation *compilation);
 
-void tn_compilation_clear(tn_compilation *compilation);
-
 #endif

@@ -71,7 +71,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token MEASURE "`measure`" LET "`let`" NUMBER_FIELD "`number`" WHERE "`where`" MATCHES "`matches`" SOME "`some`" EVERY "`every`"
 %token IMPLIES "`implies`" GAP "`gap`" WITHIN "`within`" LEAST "`least`" BEFORE "`before`" AFTER "`after`" PLAN "`plan`" MIN "`min`" MAX "`max`" VALUE "`value`"
 %token ONE_EXPRESSION "an expression" ONE_PATTERN "an open plan" ONE_LITERAL "a plan" ONE_SETTING "the value of a param"
-%token PARAM "`param`" WITH "`with`" ONTO "`onto`"
+%token PARAM "`param`" WITH "`with`" ONTO "`onto`" BY_MEASURE "`measure` of plans" BY_RULE "`rule` of plans"
 %token PLUS "`+`" STAR "`*`" SLASH "`/`" ELLIPSIS "`...`" QUESTION "`?`"
 %token FORM "`form`" STOREY "`storey`" SPINE "`spine`" WALL "`wall`" PARTITION "`partition`" DECK "`deck`" ROOF "`roof`"
 %token SECTION "`section`" VOID "`void`" NO "`no`" FUNCTION "`function`" AT "`at`" CELL "`cell`"
@@ -136,6 +136,8 @@ item
     : use STRING                                { $$ = tn_ast_use_new(parse, @$, $2); }
     | schema NAME doc from OPEN_BRACE body CLOSE_BRACE
                                                 { $$ = tn_ast_schema_new(parse, @$, $2, $3, $4, $6); }
+    | schema NAME doc OF NAME OPEN_BRACE body CLOSE_BRACE
+                                                { $$ = tn_ast_rows_new(parse, @$, $2, $3, $5, $7); }
     | let NAME EQUAL expression                 { $$ = tn_ast_let_new(parse, @$, $2, $4); }
     | param NAME doc EQUAL additive             { $$ = tn_ast_param_new(parse, @$, (tn_ast_rule){.name = $2, .doc = $3}, $5); }
     | param NAME doc EQUAL additive IN additive DOTS additive
@@ -212,6 +214,8 @@ field
     : field_head EQUAL values                   { $$ = tn_ast_field_new(parse, @$, TN_FORM_VALUES, $1, $3); }
     | field_head EQUAL ordered                  { $$ = tn_ast_ordered_new(parse, @$, $1, $3); }
     | field_head EQUAL FLAG                     { $$ = tn_ast_field_new(parse, @$, TN_FORM_FLAG, $1, tn_ast_empty()); }
+    | field_head EQUAL BY_MEASURE NAME             { $$ = tn_ast_said_new(parse, @$, TN_FORM_MEASURE, $1, $4); }
+    | field_head EQUAL BY_RULE NAME                { $$ = tn_ast_said_new(parse, @$, TN_FORM_RULE, $1, $4); }
     | zone field_head EQUAL values              { $$ = tn_ast_field_new(parse, @$, TN_FORM_ZONE, $2, $4); }
     ;
 

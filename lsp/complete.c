@@ -4,6 +4,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "compiler/plan/check/check.h"
 #include "compiler/plan/syntax/form_ast.h"
 #include "compiler/plan/syntax/words.h"
 #include "driver/open/stdlib.h"
@@ -151,6 +152,18 @@ static void offer_values(lsp_cursor *c, const tn_symbol *field, const char *grou
     }
 }
 
+/* What a measure of plans says: as far as the plans are counted. */
+static void offer_said(lsp_cursor *c, const tn_symbol *schema, const tn_symbol *field, const char *group)
+{
+    const tn_checked *checked = c->analysis->compilation.checked;
+    for (size_t i = 0; checked && i < checked->schema_count; i++) {
+        const tn_checked_schema *s = checked->schemas[i];
+        uint32_t f = strcmp(s->name, schema->name) == 0 ? tn_field_find(s, field->name) : TN_NONE;
+        for (uint32_t v = 0; f != TN_NONE && v < s->fields[f].value_count; v++)
+            offer(c, s->fields[f].values[v].spelling, KIND_VALUE, field->name, group);
+    }
+}
+
 /* The fields that a schema declares, those that add values to an older one's included. */
 static void offer_declared(lsp_cursor *c, const tn_symbol *schema, const tn_symbol *field)
 {
@@ -163,6 +176,8 @@ static void offer_declared(lsp_cursor *c, const tn_symbol *schema, const tn_symb
             offer(c, s->name, KIND_FIELD, s->doc, "1");
         if (named || ast->form == TN_FORM_VALUES)
             offer_values(c, s, named ? "0" : "1");
+        if (ast->form == TN_FORM_MEASURE)
+            offer_said(c, schema, s, named ? "0" : "1");
     }
 }
 
@@ -331,6 +346,11 @@ static void complete_library(lsp_cursor *c)
 static void complete_schema(lsp_cursor *c)
 {
     bool role = c->count > 0 && cursor_is(c, c->count - 1, "role");
+    bool said = c->count > 1 && cursor_is(c, c->count - 2, "=");
+    if (said && cursor_is(c, c->count - 1, "measure"))
+        offer_symbols(c, TN_SYMBOL_MEASURE, KIND_VALUE);
+    if (said && cursor_is(c, c->count - 1, "rule"))
+        offer_symbols(c, TN_SYMBOL_RULE, KIND_FUNCTION);
     bool limit = cursor_is(c, c->clause, "only") || cursor_is(c, c->clause, "forbid");
     offer_words(c, role ? TN_AT(ROLE) : TN_AT(SCHEMA) | TN_AT(FIELD) | (limit ? TN_AT(LIMIT) : 0));
 }
@@ -392,6 +412,8 @@ static void complete_top(lsp_cursor *c)
         offer_symbols(c, TN_SYMBOL_FORM, KIND_STRUCT);
     } else if (c->count > 0 && cursor_is(c, last, "of") && cursor_is(c, c->item, "form")) {
         offer_symbols(c, TN_SYMBOL_SCHEMA, KIND_STRUCT);
+    } else if (c->count > 0 && cursor_is(c, last, "of") && cursor_is(c, c->item, "schema")) {
+        offer_symbols(c, TN_SYMBOL_LIBRARY, KIND_MODULE);
     } else if (c->count > 0 && cursor_is(c, last, "from") && !stands_after(c, "least")) {
         offer_symbols(c, TN_SYMBOL_LIBRARY, KIND_MODULE);
     } else if (c->count > 0 && cursor_is(c, last, "test") && last == c->item) {
@@ -477,7 +499,7 @@ static void find_context(lsp_cursor *c)
 {
     c->item = c->clause = c->count;
     for (size_t i = 0; i < c->count; i++) {
-        if (cursor_is_word(c, i, TN_AT(ITEM), TN_AS_KEYWORDS)) {
+        if (cursor_is_word(c, i, TN_AT(ITEM), TN_AS_KEYWORDS) && !(i > 0 && cursor_is(c, i - 1, "="))) {
             c->item = i;
             c->clause = c->count;
             c->depth = 0;

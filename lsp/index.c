@@ -490,6 +490,9 @@ static void use_item(tn_index *index, const tn_ast_top *item)
         const tn_ast_schema *schema = (const tn_ast_schema *)item;
         const index_about about = {own_symbol(index, &item->node), NULL};
         index_use(index, &index->schemas, schema->from);
+        index_use(index, &index->names, schema->of);
+        for (TN_EACH(const tn_ast_field, field, schema->body.fields))
+            index_use(index, &index->names, field->said_by);
         for (TN_EACH(const tn_ast_forbid, forbid, schema->body.forbids))
             index_expression(index, &about, forbid->expr);
     } else if (item->kind == TN_ITEM_RULE || item->kind == TN_ITEM_MEASURE) {

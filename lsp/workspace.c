@@ -10,6 +10,7 @@
 
 #include "compiler/common/lexical.h"
 #include "compiler/compile.h"
+#include "driver/open/census.h"
 #include "driver/open/open.h"
 #include "lsp/facts.h"
 #include "runtime/base/array.h"
@@ -142,8 +143,10 @@ static tn_status compile_served(tn_file_analysis *analysis, const tn_input *inpu
 {
     tn_served_files files;
     tn_served_begin(&files, texts->served, texts->overlay, texts->context);
-    const tn_compile_options options = {
-        .resolver = tn_served_resolver(&files), .attachments = tn_served_attachments(&files), .partial = true};
+    const tn_compile_options options = {.resolver = tn_served_resolver(&files),
+                                        .census = tn_plan_census,
+                                        .attachments = tn_served_attachments(&files),
+                                        .partial = true};
     tn_status status = compile_input(analysis, input, &options);
     tn_served_clear(&files);
     return status;
@@ -155,8 +158,10 @@ static tn_status compile_file(tn_file_analysis *analysis, const tn_input *input,
     tn_files_begin(&files, texts->stdlib);
     files.kept.overlay = texts->overlay;
     files.kept.overlay_context = texts->context;
-    const tn_compile_options options = {
-        .resolver = tn_files_resolver(&files), .attachments = tn_file_attachments, .partial = true};
+    const tn_compile_options options = {.resolver = tn_files_resolver(&files),
+                                        .census = tn_plan_census,
+                                        .attachments = tn_file_attachments,
+                                        .partial = true};
     tn_status status = compile_input(analysis, input, &options);
     tn_files_clear(&files);
     return status;

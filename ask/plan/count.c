@@ -10,6 +10,7 @@
 #include "ask/session/requests.h"
 #include "driver/measure/spread.h"
 #include "runtime/number/rational.h"
+#include "runtime/plan/library/plan_rows.h"
 
 /* ---- how plans, or houses, are spread over the values of a measure */
 
@@ -230,6 +231,7 @@ typedef struct counting {
     tn_session *session;
     const tn_ready_library *ready;
     tn_counted_plans *counted;
+    tn_plan_rows *rows; /* if its trays stand for plans */
     bool mirror;
 } counting;
 
@@ -252,6 +254,9 @@ static tn_status count_length(const counting *c, uint32_t length, tn_plans_of_le
     count->has_generated = mpz_sgn(count->generated) >= 0;
     count->has_kept = mpz_sgn(count->kept) >= 0;
     count->has_mirror = c->mirror;
+    count->has_rows_of_plans = c->rows != NULL;
+    if (c->rows)
+        tn_plan_rows_count(c->rows, length, count->rows_of_plans);
     return status;
 }
 
@@ -264,6 +269,8 @@ static tn_status count_all(const counting *c, tn_error *error)
     counted->has_generated = all.has_generated;
     counted->has_kept = all.has_kept;
     counted->has_mirror = all.has_mirror;
+    counted->has_rows_of_plans = all.has_rows_of_plans;
+    mpz_set(counted->rows_of_plans, all.rows_of_plans);
     mpz_set(counted->generated, all.generated);
     mpz_set(counted->kept, all.kept);
     mpz_set(counted->mirror, all.mirror);
@@ -363,8 +370,12 @@ static tn_status count_plans(tn_session *session, const tn_count_request *reques
     c.counted = answer->value;
     if (status == TN_OK)
         status = describe(&c, &error);
+    if (status == TN_OK && tn_schema_of_plans(c.ready->schema))
+        status = tn_plan_rows_new(c.ready->library, &c.rows, &error);
     if (status == TN_OK)
         status = count_lengths(&c, &error);
+    tn_plan_rows_free(c.rows);
+    c.rows = NULL;
     if (status == TN_OK && session->so_far)
         session->so_far(session->so_far_context, answer);
     if (status == TN_OK && !request->no_effects)

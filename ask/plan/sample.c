@@ -7,6 +7,7 @@
 #include "ask/plan/found.h"
 #include "ask/plan/weights.h"
 #include "ask/session/questions.h"
+#include "driver/open/digits.h"
 #include "runtime/base/array.h"
 #include "runtime/house/house.h"
 #include "runtime/plan/library/diverse.h"
@@ -133,18 +134,36 @@ static tn_status note_weights(const drawing *d, const tn_ready_library *ready, t
     bool ok = total && tn_weights_say(ready, &weights) && tn_buffer_append(&weights, "", 1);
     if (ok)
         tn_session_note(d->session,
-                        "plans are drawn by their weights: %s; those of all plans add up to %.200s; --uniform draws "
+                        "plans are drawn by their weights: %s%s; those of all plans add up to %.200s; --uniform draws "
                         "each plan as likely as each",
-                        weights.data, total);
+                        weights.data,
+                        tn_schema_of_plans(ready->schema) ? ", times the plans that their trays stand for" : "", total);
     free(weights.data);
     free(total);
     return ok ? TN_OK : tn_fail_memory(error);
 }
 
-/* Makes ready to draw by weights, if the library has any, and says so. */
+/* Rows of trays that stand for plans, without weights: the sum is the number of rows of plans. */
+static tn_status note_plans(const drawing *d, const tn_ready_library *ready, tn_error *error)
+{
+    const tn_module *module = ready->schema->module;
+    char *rows = tn_digits(mpq_numref(d->weight), true);
+    if (!rows)
+        return tn_fail_memory(error);
+    tn_session_note(d->session,
+                    "rows are drawn by how many rows of plans of `%s` they stand for, %.400s in all; --uniform draws "
+                    "each row of trays as likely as each",
+                    tn_text(module, module->LIBRARY_records[ready->schema->record->of].name), rows);
+    free(rows);
+    return TN_OK;
+}
+
+/* Makes ready to draw by weights and by the plans that trays stand for, if there are any, and says so. */
 static tn_status weigh(drawing *d, const tn_ready_library *ready, tn_error *error)
 {
-    if (d->request->uniform || ready->record->weight_count == 0)
+    bool of_plans = tn_schema_of_plans(ready->schema) && !d->request->diverse,
+         weights = ready->record->weight_count > 0;
+    if (d->request->uniform || !(of_plans || weights))
         return TN_OK;
     tn_session_begins(d->session, "adding up weights");
     tn_status status = tn_likelihood_new(d->library, &d->likelihood, error);
@@ -152,7 +171,7 @@ static tn_status weigh(drawing *d, const tn_ready_library *ready, tn_error *erro
     if (status != TN_OK)
         return status;
     tn_likelihood_total(d->likelihood, TN_ALL_LENGTHS, d->weight);
-    return note_weights(d, ready, error);
+    return weights ? note_weights(d, ready, error) : note_plans(d, ready, error);
 }
 
 static tn_status refuse_diverse(tn_session *session, const tn_ready_library *ready)

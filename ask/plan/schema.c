@@ -48,6 +48,8 @@ static tn_status set_field(const showing *s, const tn_field_record *from, tn_sho
     to->kind = tn_names_FIELD_KIND[from->kind];
     to->has_role = from->role != TN_ROLE_NONE;
     to->role = tn_names_FIELD_ROLE[from->role];
+    to->said_by = tn_text(s->module, from->said_by);
+    to->has_said_by = *to->said_by != '\0';
     tn_status status = TN_NEW_LIST(shown_value, to->values, from->value_count, error);
     for (uint32_t i = 0; status == TN_OK && i < from->value_count; i++)
         set_value(s, from, &s->module->VALUE_records[from->value_first + i], &to->values.items[i]);
@@ -88,10 +90,56 @@ static tn_status set_forbidden(const showing *s, const tn_schema_record *from, t
         if (!known || again)
             continue;
         char first = sources->files[spec->file].text[spec->begin];
+        if (first == 's' || first == 'S') /* `schema ... of LIBRARY`: it stands for no plan */
+            continue;
         bool only = first == 'o' || first == 'O';
         uint32_t word = only ? sizeof "only" - 1 : sizeof "forbid" - 1; /* which the stretch begins with */
         status = tn_owneds_add(only ? &to->only : &to->forbidden,
                                source_of(s, spec->file, spec->begin + word, spec->end), error);
+    }
+    return status;
+}
+
+/* ---- trays that stand for plans */
+
+static bool has_bit(const tn_module *module, const tn_spec_record *spec, uint32_t bit)
+{
+    return (uint64_t)module->MASK_records[spec->mask_first + bit / 64].bits >> (bit % 64) & 1;
+}
+
+/* What the trays have in the fields that measures and rules say: "6m corner". */
+static char *said_of(const tn_module *module, const tn_schema_record *schema, const tn_spec_record *spec)
+{
+    const tn_field_record *fields = &module->FIELD_records[schema->field_first];
+    tn_buffer text = {0};
+    bool good = tn_buffer_append(&text, "", 1);
+    text.size = 0;
+    for (uint32_t f = 0; f < schema->field_count && good; f++)
+        for (uint32_t v = 0; *tn_text(module, fields[f].said_by) && v < fields[f].value_count && good; v++) {
+            uint32_t value = fields[f].value_first + v;
+            if (has_bit(module, spec, value - fields->value_first))
+                good = tn_buffer_printf(&text, "%s%s", text.size ? " " : "",
+                                        tn_text(module, module->VALUE_records[value].spelling));
+        }
+    if (good)
+        return text.data;
+    free(text.data);
+    return NULL;
+}
+
+static tn_status set_tray_plans(const showing *s, const tn_schema_record *from, tn_shown_schema *to, tn_error *error)
+{
+    if (from->of == TN_NO_RECORD)
+        return TN_OK;
+    to->has_library = to->has_tray_plans = true;
+    to->library = tn_text(s->module, s->module->LIBRARY_records[from->of].name);
+    tn_status status = TN_NEW_LIST(shown_tray, to->tray_plans, from->tray_plans_count, error);
+    for (uint32_t i = 0; status == TN_OK && i < from->tray_plans_count; i++) {
+        const tn_tray_plans_record *record = &s->module->TRAY_PLANS_records[from->tray_plans_first + i];
+        tn_shown_tray *tray = &to->tray_plans.items[i];
+        mpz_set_str(tray->plans, tn_text(s->module, record->plans), 10);
+        tray->tray = said_of(s->module, from, &s->module->SPEC_records[record->spec]);
+        status = tray->tray ? TN_OK : tn_fail_memory(error);
     }
     return status;
 }
@@ -111,7 +159,9 @@ static tn_status set_schema(const showing *s, uint32_t index, tn_shown_schema *t
     status = TN_NEW_LIST(shown_field, to->fields, from->field_count, error);
     for (uint32_t i = 0; status == TN_OK && i < from->field_count; i++)
         status = set_field(s, &s->module->FIELD_records[from->field_first + i], &to->fields.items[i], error);
-    return status == TN_OK ? set_forbidden(s, from, to, error) : status;
+    if (status == TN_OK)
+        status = set_forbidden(s, from, to, error);
+    return status == TN_OK ? set_tray_plans(s, from, to, error) : status;
 }
 
 static tn_status show_schemas(const showing *s, tn_error *error)

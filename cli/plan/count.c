@@ -32,10 +32,12 @@ static void write_number(bool known, const mpz_t number, int width, FILE *out)
 static void write_lengths(const tn_counted_plans *c, FILE *out)
 {
     int generated = tn_digits_width(c->generated, "generated"), kept = tn_digits_width(c->kept, "kept"),
-        mirror = tn_digits_width(c->mirror, "up to mirror");
+        mirror = tn_digits_width(c->mirror, "up to mirror"), rows = tn_digits_width(c->rows_of_plans, "rows of plans");
     fprintf(out, "%8s  %*s  %*s", "trays", generated, "generated", kept, "kept");
     if (c->has_mirror)
         fprintf(out, "  %*s", mirror, "up to mirror");
+    if (c->has_rows_of_plans)
+        fprintf(out, "  %*s", rows, "rows of plans");
     fputc('\n', out);
     for (size_t i = 0; i < c->by_length.count && !tn_interrupted(); i++) {
         const tn_plans_of_length *length = &c->by_length.items[i];
@@ -44,6 +46,8 @@ static void write_lengths(const tn_counted_plans *c, FILE *out)
         write_number(length->has_kept, length->kept, kept, out);
         if (c->has_mirror)
             write_number(true, length->mirror, mirror, out);
+        if (c->has_rows_of_plans)
+            write_number(true, length->rows_of_plans, rows, out);
         fputc('\n', out);
     }
     fprintf(out, "%8s", "total");
@@ -51,6 +55,8 @@ static void write_lengths(const tn_counted_plans *c, FILE *out)
     write_number(c->has_kept, c->kept, kept, out);
     if (c->has_mirror)
         write_number(true, c->mirror, mirror, out);
+    if (c->has_rows_of_plans)
+        write_number(true, c->rows_of_plans, rows, out);
     fputc('\n', out);
 }
 

@@ -114,11 +114,13 @@ static void tell(tn_job *job, const tn_shard_set *set)
 /* Workers draw the numbers of plans, each as likely as each. */
 static bool can_draw(tn_job *job, const tn_ready_library *ready, const tn_new_set *what)
 {
-    if (!what->sampled || what->uniform || ready->record->weight_count == 0)
+    bool weights = ready->record->weight_count > 0;
+    if (!what->sampled || what->uniform || !(weights || ready->schema->tray_plans))
         return true;
     tn_help(tn_job_diagnostics(job),
-            tn_job_usage(job, "a shard set draws each plan as likely as each, and library `%s` has weights",
-                         tn_text(job->opened.module, ready->record->name)),
+            tn_job_usage(job, "a shard set draws each plan as likely as each, and %slibrary `%s` %s",
+                         weights ? "" : "the trays of ", tn_text(job->opened.module, ready->record->name),
+                         weights ? "has weights" : "stand for different numbers of plans"),
             "add --uniform; or draw fewer plans by weight, without shards");
     return false;
 }

@@ -1,17 +1,43 @@
 /* tartan schema: what a file of rules has. */
 #include <inttypes.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "ask/session/questions.h"
 #include "cli/common/listed.h"
 #include "cli/common/options.h"
+#include "driver/open/digits.h"
 
 static void write_field(const tn_shown_field *field, int width, FILE *out)
 {
     fprintf(out, "  %-*s  %-6s ", width, field->name, field->kind);
     for (size_t i = 0; i < field->values.count; i++)
         fprintf(out, "%s%s", i ? ", " : " ", field->values.items[i].spelling);
+    if (field->has_said_by)
+        fprintf(out, "  %s %s", strcmp(field->kind, "flag") == 0 ? "rule" : "measure", field->said_by);
     tn_listed_write_doc(field->doc, out);
+}
+
+/* For how many plans trays stand: the first of them, for people. */
+static void write_tray_plans(const tn_shown_schema *schema, FILE *out)
+{
+    enum { SHOWN = 20 };
+    size_t count = schema->tray_plans.count, shown = count > SHOWN ? SHOWN : count;
+    int trays = 0, plans = 0;
+    for (size_t i = 0; i < shown; i++) {
+        int width = (int)strlen(schema->tray_plans.items[i].tray),
+            digits = tn_digits_width(schema->tray_plans.items[i].plans, "");
+        trays = width > trays ? width : trays;
+        plans = digits > plans ? digits : plans;
+    }
+    fprintf(out, "  stands for plans of %s\n", schema->library);
+    for (size_t i = 0; i < shown; i++) {
+        char *digits = tn_digits(schema->tray_plans.items[i].plans, true);
+        fprintf(out, "    %-*s  %*s\n", trays, schema->tray_plans.items[i].tray, plans, digits ? digits : "?");
+        free(digits);
+    }
+    if (count > shown)
+        fprintf(out, "    and %zu more\n", count - shown);
 }
 
 static void write_schema(const tn_shown_schema *schema, FILE *out)
@@ -31,6 +57,8 @@ static void write_schema(const tn_shown_schema *schema, FILE *out)
         fprintf(out, "  forbid %s\n", schema->forbidden.items[i]);
     for (size_t i = 0; i < schema->only.count; i++)
         fprintf(out, "  only %s\n", schema->only.items[i]);
+    if (schema->has_tray_plans)
+        write_tray_plans(schema, out);
 }
 
 static void write_library(const tn_shown_library *library, FILE *out)

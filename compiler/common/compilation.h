@@ -7,6 +7,7 @@
 #include "compiler/common/arena.h"
 #include "compiler/common/diagnostic.h"
 #include "runtime/base/error.h"
+#include "runtime/base/length.h"
 #include "runtime/base/watch.h"
 
 /* Where the compiler gets its texts from: its caller. The compiler itself opens no file.
@@ -56,6 +57,42 @@ typedef struct tn_attachments {
     void *context;
 } tn_attachments;
 
+/* How many plans of a library have which values of some measures together: what a schema of a library is made of. The
+ * compiler never runs a rule, so its caller counts, on a module of what the text says without such schemas. */
+typedef struct tn_census_row {
+    const char **values; /* [columns]: "p/q", in nanometres to the measure's power */
+    const char *plans;   /* how many plans: a decimal number above 0 */
+} tn_census_row;
+
+typedef struct tn_census {
+    tn_census_row *rows; /* no two alike; ascending by the first column, then by the next */
+    size_t count;
+    size_t columns;
+    const int *powers;     /* [columns]: of a length */
+    tn_length_style style; /* how the library's schema writes lengths */
+} tn_census;
+
+/* What has to be counted. */
+typedef struct tn_census_request {
+    const uint8_t *module;
+    size_t module_size;
+    const char *library;
+    const char *const *measures; /* by which; of the library's schema */
+    size_t measure_count;
+    size_t most_values; /* that a measure may have */
+    bool brief;         /* an editor waits: little work, or none */
+    tn_watch *watch;    /* or NULL */
+} tn_census_request;
+
+/* Who counts. TN_OK: the census is filled, in the arena. Any other status is said, with the code, message and help of
+ * `error`, where the schema names the library, or the measure *column if that is one of them; TN_MEMORY and TN_STOPPED
+ * end the compilation. */
+typedef struct tn_census_taker {
+    tn_status (*take)(void *context, const tn_census_request *request, tn_arena *arena, tn_census *census,
+                      size_t *column, tn_error *error); /* NULL: nobody */
+    void *context;
+} tn_census_taker;
+
 /* What a command line asks beyond what a .plan file says. */
 typedef struct tn_questions {
     const char *library;       /* the library that is asked about; NULL: the only one */
@@ -82,6 +119,7 @@ struct tn_imports;
 
 typedef struct tn_compile_options {
     tn_resolver resolver; /* of what is used */
+    tn_census_taker census;
     tn_attachments attachments;
     bool warnings_are_errors;
     const tn_questions *questions; /* of a .plan file, or about parts; or NULL */
@@ -115,6 +153,11 @@ typedef struct tn_compilation {
     uint8_t *module;                        /* bytes of the module, owned; NULL if there were errors */
     size_t module_size;
 } tn_compilation;
+
+/* Begins to compile the input: a file of sources, an arena. Clear it with tn_compilation_clear in any case. */
+tn_status tn_compilation_start(tn_compilation *compilation, const struct tn_notation *notation, const tn_input *input,
+                               tn_error *error);
+void tn_compilation_clear(tn_compilation *compilation);
 
 /* How a text asks for a file of the LDraw library that the user has: by a request with this extension, whose path is
  * the file's name there (tn_attachments.bytes). TN_IO, E0901, if there is none. */

@@ -3,6 +3,7 @@
 #include "compiler/plan/ask.h"
 #include "compiler/plan/emit/emit.h"
 #include "compiler/plan/format_clauses.h"
+#include "compiler/plan/rows.h"
 #include "compiler/plan/settings.h"
 #include "compiler/plan/syntax/parse.h"
 #include "compiler/plan/syntax/words.h"
@@ -45,15 +46,20 @@ static tn_status compile(tn_compilation *compilation, const tn_compile_options *
         options->change(options->change_context, compilation->arena, imports);
     if (status == TN_OK)
         tn_settings_of_test(imports, options->test);
+    if (status == TN_OK)
+        status = tn_rows_count(compilation, options, imports, compile, error);
     if (status == TN_OK && options->questions)
         status = tn_ask(compilation->arena, diagnostics, &compilation->sources, options->questions, &asked, error);
     if (status == TN_OK)
         status = tn_check_program(compilation->arena, diagnostics, imports, &asked, checked);
+    if (status == TN_STOPPED)
+        return status;
     if (status != TN_OK || diagnostics->failed)
         return tn_fail_memory(error);
     compilation->imports = imports;
     compilation->checked = checked;
-    if (diagnostics->error_count > 0 || (options->warnings_are_errors && diagnostics->warning_count > 0))
+    if (diagnostics->error_count > 0 || checked->uncounted ||
+        (options->warnings_are_errors && diagnostics->warning_count > 0))
         return TN_INVALID;
     status = tn_emit_module(compilation->arena, checked, imports, diagnostics, &compilation->module,
                             &compilation->module_size, error);

@@ -65,9 +65,10 @@ static bool at_part(const tn_format *format, size_t i)
 
 typedef void put_run(tn_format *format, const size_t *starts, size_t count);
 
+/* `frontage = measure front` names one. */
 static bool starts_item(const tn_format *format, size_t i)
 {
-    return is_word(format, i, TN_AT(ITEM), TN_AS_KEYWORDS);
+    return is_word(format, i, TN_AT(ITEM), TN_AS_KEYWORDS) && !(i > 0 && tn_format_is(format, i - 1, "="));
 }
 
 static bool starts_field(const tn_format *format, size_t i)

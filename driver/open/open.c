@@ -8,6 +8,7 @@
 
 #include "compiler/common/compilation.h"
 #include "compiler/common/import.h"
+#include "driver/open/census.h"
 #include "driver/open/files.h"
 #include "driver/open/missing.h"
 #include "driver/open/stdlib.h"
@@ -295,8 +296,10 @@ static tn_status compile(const tn_notation *notation, const tn_input *input, con
                          tn_opened *opened)
 {
     tn_error error;
+    tn_compile_options own = *options;
+    own.census = tn_plan_census;
     tn_diagnostics_clear(&opened->compilation.diagnostics);
-    tn_status status = tn_compile_text(notation, input, options, &opened->compilation);
+    tn_status status = tn_compile_text(notation, input, &own, &opened->compilation);
     if (status != TN_OK)
         return status;
     opened->compiled = true;

@@ -16,6 +16,7 @@ class PlanKind(Kind):
         "file: ONE_LITERAL plan": "the command line's, not a file's",
         "file: ONE_SETTING setting": "the command line's, not a file's",
         "file: items": "the start is `items`",
+        **dict.fromkeys(plans.OF_LIBRARIES, "what trays there are is known once plans are counted: plan.rows makes such files"),
         "value: NUMBER doc role": "taken by the grammar in order to say that a number has no unit",
     }
 

@@ -115,7 +115,12 @@ for head in ("TRAY OPEN specifier CLOSE", "ANY"):
 
 # How often a production is chosen where that is not 1. What the grammar takes only in order to say better what is wrong with it is rare.
 MISTAKE = .04
+# What trays a schema of a library has is known once its plans are counted.
+OF_LIBRARIES = ("item: schema NAME doc OF NAME OPEN_BRACE body CLOSE_BRACE", "field: field_head EQUAL BY_MEASURE NAME",
+                "field: field_head EQUAL BY_RULE NAME")
+
 WEIGHTS = {
+    **dict.fromkeys(OF_LIBRARIES, 0),
     "implied: implied IMPLIES disjunction": MISTAKE, "implied: implied WHERE disjunction": MISTAKE,
     "qualified: qualified WHERE disjunction": MISTAKE, "qualified: qualified IMPLIES disjunction": MISTAKE,
     "nearness: nearness BESIDE additive": .1, "nearness: nearness WITHIN additive OF additive": .15,

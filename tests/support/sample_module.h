@@ -49,7 +49,8 @@ static inline void sample_schema(tn_builder *builder)
                                                        .field_count = 4,
                                                        .forbid_count = 1,
                                                        .end = sample_begin("rule"),
-                                                       .from = TN_NO_RECORD});
+                                                       .from = TN_NO_RECORD,
+                                                       .of = TN_NO_RECORD});
     sample_field(builder, "width", TN_FIELD_LENGTH, TN_ROLE_LENGTH);
     sample_value(builder, "4'", "4'", "", TN_FILL_NONE, 4 * TN_FOOT_NM);
     sample_value(builder, "8'", "8'", "", TN_FILL_NONE, 8 * TN_FOOT_NM);

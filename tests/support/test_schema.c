@@ -99,7 +99,8 @@ uint32_t test_schema_add(tn_builder *builder, const test_schema *schema)
                                .field_count = schema->field_count,
                                .forbid_first = (uint32_t)tn_builder_count(builder, TN_SECTION_SPEC),
                                .forbid_count = schema->forbid_count,
-                               .from = TN_NO_RECORD};
+                               .from = TN_NO_RECORD,
+                               .of = TN_NO_RECORD};
     for (uint32_t i = 0; i < schema->field_count; i++)
         add_field(builder, &schema->fields[i]);
     for (uint32_t i = 0; i < schema->forbid_count; i++) {

@@ -175,9 +175,9 @@ tn_status tn_check_program(tn_arena *arena, tn_diagnostics *diagnostics, const t
             of_schemas[k](&check, result->schemas[i]);
     check.in_schema = false;
     static void (*const steps[])(tn_check *) = {
-        tn_check_settings, check_lets,          tn_check_forms,    find_schemas,        tn_check_older_measures,
-        tn_check_settle,   tn_check_libraries,  tn_check_asked,    tn_check_unused,     tn_check_number_records,
-        tn_check_tests,    tn_check_allowances, tn_check_settable, tn_check_list_params};
+        tn_check_settings,       check_lets,         tn_check_forms,      find_schemas,      tn_check_older_measures,
+        tn_check_settle,         tn_check_libraries, tn_check_rows,       tn_check_asked,    tn_check_unused,
+        tn_check_number_records, tn_check_tests,     tn_check_allowances, tn_check_settable, tn_check_list_params};
     for (size_t i = 0; i < sizeof steps / sizeof *steps && !tn_arena_failed(arena); i++)
         steps[i](&check);
     for (size_t i = 0; i < result->schema_count; i++) {

@@ -287,8 +287,9 @@ typedef struct tn_checked_name {
 typedef struct tn_checked {
     tn_checked_schema **schemas;
     size_t schema_count;
-    tn_checked_rule **rules;         /* in file order, imported files first */
-    tn_checked_rule **order;         /* callees first */
+    bool uncounted;          /* the trays of some schema of a library are not known, and there need be no error */
+    tn_checked_rule **rules; /* in file order, imported files first */
+    tn_checked_rule **order; /* callees first */
     size_t records, measure_records; /* of rules and measures so far */
     size_t rule_count, rule_capacity, ordered, settled;
     tn_checked_library **libraries;
@@ -357,7 +358,12 @@ tn_status tn_check_program(tn_arena *arena, tn_diagnostics *diagnostics, const t
                            const tn_asked_for *asked, tn_checked *result);
 
 /* ---- names.c */
-typedef enum tn_want { TN_WANT_RULE, TN_WANT_LIBRARY, TN_WANT_EITHER } tn_want; /* RULE: or a measure */
+typedef enum tn_want {
+    TN_WANT_RULE,
+    TN_WANT_LIBRARY,
+    TN_WANT_EITHER,
+    TN_WANT_MEASURE
+} tn_want;                              /* RULE: or a measure */
 void tn_check_collect(tn_check *check); /* makes the lists and tables of schemas, rules, libraries */
 /* Is there room for one more than `count`? The first time that there is none is reported (E0831). */
 bool tn_check_room(tn_check *check, size_t count, size_t limit, const char *what, tn_span span, const char *help);
@@ -385,6 +391,19 @@ const tn_checked_schema *tn_schema_of_word(const tn_checked_schema *schema, cons
                                            const char *word);
 void tn_check_older_fields(tn_check *check, tn_checked_schema *schema); /* each `... |` has older values */
 void tn_check_older_measures(tn_check *check); /* measures of older schemas, for the plans of those made from them */
+
+/* ---- rows.c: schemas of libraries */
+/* The one of a library that the schema is or is made from, however far; NULL: there is none. */
+const tn_checked_schema *tn_schema_of_library(const tn_checked_schema *schema);
+const tn_census *tn_schema_census(const tn_checked_schema *schema); /* of that library; NULL: there is none */
+/* The column of the census that a field of the schema's own has, which a measure or a rule says. */
+size_t tn_said_column(const tn_checked_schema *schema, const tn_ast_field *field);
+void tn_check_said_values(tn_check *check, tn_checked_schema *schema, tn_checked_field *field); /* of a measure */
+/* The trays that a row of the census is about: schema->words of a mask. */
+void tn_schema_row_mask(const tn_checked_schema *schema, size_t row, uint64_t *mask);
+/* The trays that stand for no plan. false: reported. */
+bool tn_check_rows_legal(tn_check *check, tn_checked_schema *schema, tn_checked_trays *out);
+void tn_check_rows(tn_check *check); /* what schemas of libraries name, and why the plans of some are not known */
 
 /* ---- trays.c */
 void tn_check_numbers(tn_check *check, tn_checked_schema *schema); /* what they say of which trays */
@@ -542,7 +561,7 @@ tn_ast_expr *tn_expr_copy(tn_check *check, const tn_ast_expr *expr); /* the node
 void tn_check_sum_condition(tn_check *check, tn_ast_expr *sum);      /* makes comparisons of a sum's condition */
 void tn_check_tests_of_numbers(tn_check *check, tn_ast_expr *tray);  /* takes the items about numbers out: `tests` */
 
-/* ---- standing.c */
+/* ---- rule.c: what stands only in some places */
 void tn_check_around(tn_check *check, const tn_ast_expr *expr); /* does `where` say what lies before and behind? */
 /* Comparisons with `matches` stand only where the plan as a whole is meant. Is one in it? */
 bool tn_check_whole(tn_check *check, const tn_ast_expr *expr);

@@ -354,6 +354,14 @@ static bool schema_stands(tn_check *check, tn_checked_form *form)
     for (uint32_t f = schema->field_count; f-- > 0;)
         if (schema->fields[f].kind == TN_FIELD_ZONE)
             form->spine = f;
+    const tn_checked_schema *of = tn_schema_of_library(schema);
+    if (of) {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_FORM_SCHEMA, form->ast->schema->node.span,
+                                     "a tray of schema `%s` is a plan, which has no cells", schema->name);
+        tn_note(check->diagnostics, d, &of->ast->of->node.span, "it stands for plans of `%s`", of->ast->of->text);
+        tn_help(check->diagnostics, d, "name the schema of these plans");
+        return false;
+    }
     if (form->spine != TN_NONE && schema->length_field != TN_NONE)
         return true;
     if (schema->broken)

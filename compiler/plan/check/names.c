@@ -326,7 +326,7 @@ static const char *nearest_name(tn_check *check, const char *word, tn_want want)
     return names ? tn_nearest(word, names, count) : NULL;
 }
 
-static const char *const wanted_words[] = {"rule", "library", "rule or library"};
+static const char *const wanted_words[] = {"rule", "library", "rule or library", "measure"};
 
 /* A word of the schema stands where a rule has to: says how a rule asks for it. */
 static bool help_word(tn_check *check, tn_diagnostic *d, const tn_checked_schema *schema, const char *word)

@@ -378,14 +378,16 @@ static void check_field(tn_check *check, tn_checked_schema *schema, const tn_ast
         return;
     }
     const tn_ast_value *first = (const tn_ast_value *)ast->values.first;
-    tn_field_kind kind = ast->form == TN_FORM_FLAG                     ? TN_FIELD_FLAG
+    bool flag = ast->form == TN_FORM_FLAG || ast->form == TN_FORM_RULE;
+    tn_field_kind kind = flag                                          ? TN_FIELD_FLAG
+                         : ast->form == TN_FORM_MEASURE                ? TN_FIELD_LENGTH
                          : ast->form == TN_FORM_ZONE                   ? TN_FIELD_ZONE
                          : !first || first->word->kind == TN_WORD_NAME ? TN_FIELD_CHOICE
                                                                        : TN_FIELD_LENGTH;
     tn_checked_field *field = begin_field(
         check, schema,
         (tn_checked_field){.ast = ast, .name = ast->name->text, .doc = ast->doc ? ast->doc->text : NULL, .kind = kind},
-        count_values(ast));
+        ast->form == TN_FORM_MEASURE ? TN_VALUES_MAX : count_values(ast));
     if (!field)
         return;
     name_is_good(check, schema, ast->name);
@@ -398,6 +400,8 @@ static void check_field(tn_check *check, tn_checked_schema *schema, const tn_ast
             (tn_checked_value){.name = field->name, .spelling = field->name, .measure = "", .span = ast->node.span});
     }
     check_values(check, schema, field, ast);
+    if (ast->form == TN_FORM_MEASURE)
+        tn_check_said_values(check, schema, field);
     check_field_role(check, field);
     end_field(schema);
 }
@@ -431,7 +435,11 @@ static bool addition_fits(tn_check *check, tn_checked_schema *schema, const tn_c
     if (added->role)
         misplaced_role(check, added->role, "the role of a field stands where the field is declared first");
     tn_diagnostic *d = NULL;
-    if (older->kind == TN_FIELD_FLAG) {
+    if (tn_field_is_said(older->ast)) {
+        d = tn_report(check->diagnostics, E_OLDER_VALUES, added->node.span,
+                      "the values of `%s` are those that `%s` says", older->name, older->ast->said_by->text);
+        tn_help(check->diagnostics, d, "leave this line out, or choose another name for a new field");
+    } else if (older->kind == TN_FIELD_FLAG) {
         d = tn_report(check->diagnostics, E_OLDER_VALUES, added->node.span, "`%s` is a flag: it has no more values",
                       older->name);
         tn_help(check->diagnostics, d, "leave this line out, or choose another name for a new field");
@@ -473,7 +481,7 @@ void tn_check_schema(tn_check *check, tn_checked_schema *schema)
         return;
     schema->state = OPEN;
     const tn_ast_body *body = &schema->ast->body;
-    schema->broken = body->broken;
+    schema->broken = body->broken || (schema->ast->of && !tn_schema_census(schema));
     tn_check_base(check, schema);
     uint32_t older = schema->base ? schema->base->field_count : 0;
     size_t room = older + body->fields.count;

@@ -186,6 +186,18 @@ static void add_limit(limits *l, const tn_checked_schema *older, const tn_ast_fo
     l->spans[l->count++] = span;
 }
 
+/* Trays that stand for no plan do not exist. */
+static void add_rows(limits *l)
+{
+    tn_checked_trays out;
+    tn_checked_schema *schema = l->schema;
+    if (!tn_schema_census(schema) || schema->broken)
+        return;
+    schema->broken |= !tn_check_rows_legal(l->check, schema, &out);
+    for (size_t i = 0; i < out.count && !schema->broken && has_room(l, 1, out.boxes[i]->span); i++)
+        add_forbid(schema, out.boxes[i], out.boxes[i]->span);
+}
+
 /* Those that `of` declares: the schema, or one that it is made from. False: no more can be added. */
 static bool add_limits(limits *l, const tn_checked_schema *of, size_t *declared)
 {
@@ -237,6 +249,7 @@ void tn_check_forbids(tn_check *check, tn_checked_schema *schema)
     if (!schema->forbids || !schema->forbid_places || !l.sets || !l.spans)
         return;
     check->allow = tn_ast_empty();
+    add_rows(&l);
     for (const tn_checked_schema *of = schema; of; of = of->base)
         if (!add_limits(&l, of, &declared))
             return;

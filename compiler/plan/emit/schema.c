@@ -1,9 +1,16 @@
 /* Schemas, fields, values, specifiers. */
 #include "compiler/plan/emit/emit.h"
 
+#include <string.h>
+
 static tn_string text(tn_emit *emit, const char *string)
 {
     return tn_builder_string(emit->builder, string);
+}
+
+static const char *said_by(const tn_checked_field *field)
+{
+    return tn_field_is_said(field->ast) ? field->ast->said_by->text : NULL;
 }
 
 static void emit_field(tn_emit *emit, const tn_checked_field *field)
@@ -27,6 +34,7 @@ static void emit_field(tn_emit *emit, const tn_checked_field *field)
                                             .role = field->role,
                                             .value_first = first,
                                             .value_count = field->value_count,
+                                            .said_by = text(emit, said_by(field)),
                                         });
 }
 
@@ -58,6 +66,30 @@ static uint32_t emit_forbids(tn_emit *emit, tn_checked_schema *schema)
     return first;
 }
 
+/* Of a schema of a library: how many plans trays stand for. Returns the first of the records. */
+static uint32_t emit_tray_plans(tn_emit *emit, tn_checked_schema *schema, uint32_t *count)
+{
+    const tn_census *census = tn_schema_census(schema);
+    uint32_t first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_TRAY_PLANS);
+    tn_checked_spec spec = {.schema = schema, .mask = TN_NEW_ARRAY(emit->arena, uint64_t, schema->words)};
+    *count = census && spec.mask ? (uint32_t)census->count : 0;
+    for (uint32_t i = 0; i < *count; i++) {
+        tn_schema_row_mask(schema, i, spec.mask);
+        uint32_t index = add_spec(emit, &spec, schema->ast->top.node.span);
+        tn_builder_add_TRAY_PLANS(emit->builder, &(tn_tray_plans_record){index, text(emit, census->rows[i].plans)});
+    }
+    return first;
+}
+
+static uint32_t library_of(const tn_emit *emit, const tn_checked_schema *schema)
+{
+    const tn_checked_schema *of = tn_schema_of_library(schema);
+    for (size_t i = 0; of && i < emit->checked->library_count; i++)
+        if (strcmp(emit->checked->libraries[i]->name, of->ast->of->text) == 0)
+            return emit->checked->libraries[i]->index;
+    return TN_NO_RECORD;
+}
+
 void tn_emit_schemas(tn_emit *emit)
 {
     for (size_t i = 0; i < emit->checked->schema_count; i++) {
@@ -66,7 +98,8 @@ void tn_emit_schemas(tn_emit *emit)
         schema->field_first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_FIELD);
         for (uint32_t f = 0; f < schema->field_count; f++)
             emit_field(emit, &schema->fields[f]);
-        uint32_t forbid_first = emit_forbids(emit, schema);
+        uint32_t forbid_first = emit_forbids(emit, schema), plans_count;
+        uint32_t plans_first = emit_tray_plans(emit, schema, &plans_count);
         tn_builder_add_SCHEMA(emit->builder, &(tn_schema_record){
                                                  .name = text(emit, schema->name),
                                                  .doc = text(emit, schema->doc),
@@ -78,6 +111,9 @@ void tn_emit_schemas(tn_emit *emit)
                                                  .begin = span.begin,
                                                  .end = span.end,
                                                  .from = schema->base ? schema->base->index : TN_NO_RECORD,
+                                                 .of = library_of(emit, schema),
+                                                 .tray_plans_first = plans_first,
+                                                 .tray_plans_count = plans_count,
                                              });
     }
 }

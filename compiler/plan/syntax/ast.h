@@ -259,15 +259,22 @@ typedef struct tn_ast_value {
     const tn_ast_word *doc, *role;
 } tn_ast_value;
 
-typedef enum tn_field_form { TN_FORM_VALUES, TN_FORM_FLAG, TN_FORM_ZONE } tn_field_form;
+typedef enum tn_field_form {
+    TN_FORM_VALUES,
+    TN_FORM_FLAG,
+    TN_FORM_ZONE,
+    TN_FORM_MEASURE, /* what a measure says of a plan */
+    TN_FORM_RULE     /* what a rule says */
+} tn_field_form;
 
 typedef struct tn_ast_field {
     tn_ast_node node;
     tn_field_form form;
     const tn_ast_word *name, *doc, *role;
-    tn_ast_list values; /* tn_ast_value */
-    bool ordered;       /* its values go from the least to the greatest */
-    bool extends;       /* begins with `...`: the values that an older schema gives the field come first */
+    const tn_ast_word *said_by; /* the measure or rule; NULL: of other forms */
+    tn_ast_list values;         /* tn_ast_value */
+    bool ordered;               /* its values go from the least to the greatest */
+    bool extends;               /* begins with `...`: the values that an older schema gives the field come first */
 } tn_ast_field;
 
 /* Which trays there are: `forbid`, those that are not so; `only`, those that are. */
@@ -296,10 +303,22 @@ typedef struct tn_ast_body {
     bool broken;
 } tn_ast_body;
 
+/* What became of counting the plans of a library for a schema (compiler/plan/rows.h). */
+typedef struct tn_ast_census {
+    const struct tn_census *census; /* a column for each field that a measure or a rule says, in their order; or NULL */
+    bool circular;                  /* the library is one of the schema's own */
+    bool failed;                    /* `error` says why there is no census; else what is wrong with the other texts */
+    bool brief;                     /* only little was tried */
+    tn_error error;
+    const tn_ast_word *place; /* of the error: the library, or what says a field */
+} tn_ast_census;
+
 typedef struct tn_ast_schema {
     tn_ast_top top;
     const tn_ast_word *name, *doc, *from;
+    const tn_ast_word *of; /* the library whose plans its trays stand for, or NULL */
     tn_ast_body body;
+    struct tn_ast_census *counted; /* of a library: what is known of its plans before the file is checked */
 } tn_ast_schema;
 
 typedef struct tn_ast_rule {
@@ -391,6 +410,12 @@ typedef struct tn_ast_file {
     bool broken;             /* an item is missing: its name could not be read */
     bool skipped;            /* a clause is missing */
 } tn_ast_file;
+
+/* Does a measure or a rule of plans say the field? */
+static inline bool tn_field_is_said(const tn_ast_field *field)
+{
+    return field->said_by != NULL;
+}
 
 /* Iterates over a list whose nodes are `TYPE`s. */
 #define TN_EACH(TYPE, node, list)                                                                                      \
@@ -506,6 +531,11 @@ tn_ast_list tn_ast_mixed_order(tn_parse *parse, tn_span sign, tn_ast_list values
 /* from: the older schema, or NULL. */
 void *tn_ast_schema_new(tn_parse *parse, tn_span span, const tn_ast_word *name, const tn_ast_word *doc,
                         const tn_ast_word *from, tn_ast_body body);
+/* of: a library. */
+void *tn_ast_rows_new(tn_parse *parse, tn_span span, const tn_ast_word *name, const tn_ast_word *doc,
+                      const tn_ast_word *of, tn_ast_body body);
+/* `frontage = measure front`, `corner = rule corner-house` */
+void *tn_ast_said_new(tn_parse *parse, tn_span span, tn_field_form form, tn_ast_field head, const tn_ast_word *said_by);
 void *tn_ast_older_values(tn_parse *parse, tn_span span); /* `...` among the values of a field */
 void *tn_ast_number_new(tn_parse *parse, tn_span span, tn_ast_field head, tn_ast_list cases);
 void *tn_ast_number_case_new(tn_parse *parse, tn_span span, tn_ast_expr *sum, tn_ast_expr *tray);

@@ -112,6 +112,23 @@ void *tn_ast_schema_new(tn_parse *parse, tn_span span, const tn_ast_word *name, 
     return schema;
 }
 
+void *tn_ast_rows_new(tn_parse *parse, tn_span span, const tn_ast_word *name, const tn_ast_word *doc,
+                      const tn_ast_word *of, tn_ast_body body)
+{
+    tn_ast_schema *schema = tn_ast_schema_new(parse, span, name, doc, NULL, body);
+    if (schema)
+        schema->of = of;
+    return schema;
+}
+
+void *tn_ast_said_new(tn_parse *parse, tn_span span, tn_field_form form, tn_ast_field head, const tn_ast_word *said_by)
+{
+    tn_ast_field *field = tn_ast_field_new(parse, span, form, head, tn_ast_empty());
+    if (field)
+        field->said_by = said_by;
+    return field;
+}
+
 tn_ast_body tn_ast_body_field(tn_ast_body body, void *field)
 {
     body.fields = tn_ast_append(body.fields, field);

@@ -40,6 +40,7 @@ typedef struct tn_parse {
     uint32_t parens;                /* open inside the tray specifier */
     bool schema_head;               /* a `schema` was read, and its { not yet */
     bool form_head;                 /* the same of `form` */
+    bool of_library;                /* the schema whose head was read last is one `of` a library */
     bool test_head;                 /* of `test`: neither its `with` nor its { */
     bool library_head;              /* of `library` */
     bool in_form, in_tile;          /* inside the braces of one */

@@ -124,7 +124,11 @@ static const struct {
      0,
      {"`-`", "a name", "a number", "a length", "an area", "a decimal number"}},
     {"a number", {"`-`", "a number"}, 0, 0, {"`-`", "a number", "a length", "an area", "a decimal number"}},
-    {"`flag` or a value", {"`flag`", "`...`"}, 0, 0, {"`flag`", "`...`", "a length", "a name", "a number"}},
+    {"`flag` or a value",
+     {"`flag`", "`...`"},
+     0,
+     0,
+     {"`flag`", "`...`", "a length", "a name", "a number", "`measure` of plans", "`rule` of plans"}},
     {"a value",
      {"a length", "a name"},
      TN_AT(TRAY),
@@ -295,7 +299,7 @@ static const char *meant_before(const tn_parse *parse, const tn_syntax_found *fo
         return nearest_of(parse, found->after, TN_AT(TALLY), TN_AS_CALL);
     if (expression && strcmp(found->name, "`[`") == 0)
         return nearest_of(parse, found->after, TN_AT(RULE), TN_AS_MARK);
-    if (tn_expects(e, "`of`"))
+    if (tn_expects(e, "`of`") && !tn_expects(e, "`{`"))
         return nearest_of(parse, found->after, TN_AT(TALLY), TN_AS_INFIX);
     return expression || tn_expects(e, "`in`") ? nearest_of(parse, found->after, TN_AT(RULE), TN_AS_PREFIX) : NULL;
 }
@@ -482,6 +486,25 @@ static bool report_parted_name(tn_parse *parse, const tn_syntax_found *found, co
     return true;
 }
 
+/* `frontage = measuer front` in a schema of a library; `frontage = measure front` in another. */
+static bool report_said(tn_parse *parse, tn_span first, tn_span second)
+{
+    const char *near = parse->mode == TN_LEX_SCHEMA ? nearest_of(parse, first, TN_AT(FIELD), TN_AS_HEAD) : NULL;
+    bool same = near && strlen(near) == first.end - first.begin &&
+                strncasecmp(near, parse->text + first.begin, strlen(near)) == 0;
+    if (!near || same == parse->of_library)
+        return false;
+    tn_diagnostic *d = same ? tn_report(parse->diagnostics, E_UNEXPECTED, tn_span_join(first, second),
+                                        "what a %s says is a field of a schema of a library alone", near)
+                            : tn_report(parse->diagnostics, E_UNEXPECTED, first, "`%.*s` is not a word of the language",
+                                        (int)(first.end - first.begin), parse->text + first.begin);
+    if (same)
+        tn_help(parse->diagnostics, d, "such a schema is written `schema NAME of LIBRARY { ... }`");
+    else
+        tn_suggest(parse->diagnostics, d, "%s", near);
+    return true;
+}
+
 /* Two names beside each other where one can stand: `four bed`. */
 static bool report_two_words(tn_parse *parse, const tn_syntax_found *found, const tn_expected *e)
 {
@@ -497,6 +520,8 @@ static bool report_two_words(tn_parse *parse, const tn_syntax_found *found, cons
     if (parse->mode == TN_LEX_TOP ? !tn_expects(e, "`and`") : parse->mode != TN_LEX_SCHEMA || !tn_expects(e, "`|`"))
         return false;
     char meant[40];
+    if (report_said(parse, first, second))
+        return true;
     if (nearest_word(parse, second, e, meant, sizeof meant))
         return false;
     if (report_missing_comma(parse, first, second, e))

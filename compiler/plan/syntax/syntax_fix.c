@@ -420,7 +420,8 @@ static const char *word_fix(const tn_parse *parse, const char *found, const tn_e
         return "what this word is about stands in parentheses after it";
     if (tn_expects(e, "`)`") && tn_token_is_word(found, TN_AT(ITEM), TN_AS_KEYWORDS))
         return "close the `(` before this";
-    if (tn_expects(e, "`of`") || (strcmp(found, "`tray`") == 0 && tn_expects(e, "`not`") && !tn_expects(e, "`tray`")))
+    if ((tn_expects(e, "`of`") && !tn_expects(e, "`{`")) ||
+        (strcmp(found, "`tray`") == 0 && tn_expects(e, "`not`") && !tn_expects(e, "`tray`")))
         return parse->in_extreme ? extreme_fix(parse, found)
                                  : "which trays are added up is said after `of`: `sum(FIELD of tray(a))`";
     if (tn_expects(e, "`where`") && parse->in_number && !stands_here(parse, "only"))

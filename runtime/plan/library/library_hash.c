@@ -5,7 +5,8 @@
  * at a random point but for (length / modulus) of all points (Schwartz 1980, Zippel 1979). The value at two fixed,
  * random-looking points modulo 2^61 - 1 is found like a count, over any automaton of the library: neither the wording
  * nor the order of the rules shows, nor how the automaton was built. Weights, of libraries that have any, go in as they
- * are written: in any order, but other words for the same trays are another weight. All numbers go into the hash in
+ * are written: in any order, but other words for the same trays are another weight. So does, of trays that stand for
+ * plans, for how many each does. All numbers go into the hash in
  * little-endian. */
 #include <stdlib.h>
 #include <string.h>
@@ -53,6 +54,8 @@ static void add_schema(XXH3_state_t *hash, const tn_schema *schema)
     }
     add_number(hash, schema->tray_count);
     XXH3_128bits_update(hash, schema->tray_values, (size_t)schema->tray_count * schema->field_count);
+    for (tn_tray t = 0; tn_schema_of_plans(schema) && t < schema->tray_count; t++)
+        add_text(hash, schema->module, schema->module->TRAY_PLANS_records[schema->tray_plans[t]].plans);
 }
 
 static uint64_t reduce(wide number)

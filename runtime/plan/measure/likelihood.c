@@ -137,6 +137,24 @@ static tn_status sort_weights(tn_likelihood *l, sorting *s, tn_error *error)
     return status;
 }
 
+/* Trays of a class then stand for the same number of plans. */
+static tn_status split_by_plans(tn_likelihood *l, tn_error *error)
+{
+    tn_classes plans = {.schema = l->library->schema, .of_tray = l->library->schema->tray_plans};
+    return tn_classes_refine(l->classes, &plans, error);
+}
+
+static void times_plans(const tn_schema *schema, tn_tray tray, mpq_t weight)
+{
+    mpz_t plans;
+    if (!tn_schema_of_plans(schema))
+        return;
+    mpz_init_set_str(plans, tn_tray_plans(schema, tray), 10);
+    mpz_mul(mpq_numref(weight), mpq_numref(weight), plans);
+    mpq_canonicalize(weight);
+    mpz_clear(plans);
+}
+
 /* weights[class]: the product of the weights of such a tray. */
 static tn_status weigh_classes(const tn_likelihood *l, const sorting *s, mpq_t *weights, tn_error *error)
 {
@@ -157,6 +175,7 @@ static tn_status weigh_classes(const tn_likelihood *l, const sorting *s, mpq_t *
             read_factor(l, weight, factor);
             mpq_mul(weights[c], weights[c], factor);
         }
+        times_plans(l->library->schema, tray, weights[c]);
     }
     tn_plan_vm_free(vm);
     mpq_clear(factor);
@@ -166,6 +185,10 @@ static tn_status weigh_classes(const tn_likelihood *l, const sorting *s, mpq_t *
 static tn_status make_alone(tn_likelihood *l, const sorting *s, tn_error *error)
 {
     tn_status status = tn_classes_with_sums(l->library->schema, NULL, 0, s->sums, s->alone_count, &l->classes, error);
+    if (status != TN_OK)
+        return status;
+    if (tn_schema_of_plans(l->library->schema))
+        status = split_by_plans(l, error);
     if (status != TN_OK)
         return status;
     uint32_t count = l->classes->count;

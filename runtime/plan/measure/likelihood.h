@@ -13,8 +13,10 @@
 
 typedef struct tn_likelihood tn_likelihood;
 
-/* Of a library with a record; one without weights has each plan as likely as each. E0802 where weights remember too
- * much, E0831 where more than three of them look at the trays around, E0841 past the limit on memory. */
+/* Of a library with a record; one without weights has each plan as likely as each. A tray that stands for n plans of
+ * another library makes a plan n times as likely: so each row of plans is as likely as each, but for weights. E0802
+ * where weights remember too much, E0831 where more than three of them look at the trays around, E0841 past the limit
+ * on memory. */
 tn_status tn_likelihood_new(const tn_library *library, tn_likelihood **likelihood, tn_error *error);
 void tn_likelihood_free(tn_likelihood *likelihood);
 

@@ -66,6 +66,29 @@ static tn_status check_older(const tn_checker *checker, const tn_schema_record *
     return has ? TN_OK : tn_refuse(checker, "schema %u lacks a field or value of the schema it is made from", index);
 }
 
+/* A decimal number above 0, as it is written once. */
+static bool is_count(const char *text)
+{
+    return text[0] != '0' && text[strspn(text, "0123456789")] == '\0';
+}
+
+/* Of a library, or made from one that is: its trays stand for plans. */
+static tn_status check_tray_plans(const tn_checker *checker, const tn_schema_record *schema, uint32_t index)
+{
+    const tn_module *module = checker->module;
+    if ((schema->of == TN_NO_RECORD) != (schema->tray_plans_count == 0))
+        return tn_refuse(checker, "schema %u does not say for how many plans its trays stand, or of which library",
+                         index);
+    for (uint32_t i = 0; i < schema->tray_plans_count; i++) {
+        const tn_tray_plans_record *record = &module->TRAY_PLANS_records[schema->tray_plans_first + i];
+        if (module->SPEC_records[record->spec].schema != index)
+            return tn_refuse(checker, "schema %u says for how many plans trays of another schema stand", index);
+        if (!is_count(tn_text(module, record->plans)))
+            return tn_refuse(checker, "the trays of a schema stand for a number of plans that is none");
+    }
+    return TN_OK;
+}
+
 static tn_status check_schema(const tn_checker *checker, uint32_t index)
 {
     const tn_module *module = checker->module;
@@ -80,6 +103,8 @@ static tn_status check_schema(const tn_checker *checker, uint32_t index)
         if (module->SPEC_records[schema->forbid_first + i].schema != index)
             return tn_refuse(checker, "schema %u forbids a tray of another schema", index);
     tn_status status = check_older(checker, schema, index);
+    if (status == TN_OK)
+        status = check_tray_plans(checker, schema, index);
     if (status != TN_OK)
         return status;
     return tn_check_different(checker, &fields->name, sizeof *fields, schema->field_count,
@@ -231,6 +256,10 @@ static void list_field(tn_lister *lister, uint32_t index)
     fprintf(lister->out, "  field %u  ", index);
     tn_list_name(lister, field->name);
     fprintf(lister->out, ": %s%s", kinds[field->kind], roles[field->role]);
+    if (*tn_text(lister->module, field->said_by)) {
+        fputs(", said by ", lister->out);
+        tn_list_name(lister, field->said_by);
+    }
     tn_list_doc(lister, field->doc);
     fputc('\n', lister->out);
     for (uint32_t i = 0; i < field->value_count; i++)
@@ -244,12 +273,19 @@ static void list_schema(tn_lister *lister, uint32_t index)
     tn_list_name(lister, schema->name);
     if (schema->from != TN_NO_RECORD)
         fprintf(lister->out, " from schema %u", schema->from);
+    if (schema->of != TN_NO_RECORD)
+        fprintf(lister->out, " of library %u", schema->of);
     tn_list_doc(lister, schema->doc);
     tn_list_place(lister, schema->file, schema->begin);
     for (uint32_t i = 0; i < schema->field_count; i++)
         list_field(lister, schema->field_first + i);
     for (uint32_t i = 0; i < schema->forbid_count; i++)
         fprintf(lister->out, "  forbids specifier %u\n", schema->forbid_first + i);
+    for (uint32_t i = 0; i < schema->tray_plans_count; i++) {
+        const tn_tray_plans_record *record = &lister->module->TRAY_PLANS_records[schema->tray_plans_first + i];
+        fprintf(lister->out, "  specifier %u stands for %s plans\n", record->spec,
+                tn_text(lister->module, record->plans));
+    }
 }
 
 static void list_specs(tn_lister *lister)
@@ -270,8 +306,8 @@ static void list(tn_lister *lister)
     list_specs(lister);
 }
 
-static const tn_section sections[] = {TN_SECTION_SCHEMA, TN_SECTION_FIELD, TN_SECTION_VALUE,
-                                      TN_SECTION_SPEC,   TN_SECTION_MASK,  TN_SECTION_STRINGS};
+static const tn_section sections[] = {TN_SECTION_SCHEMA, TN_SECTION_FIELD,      TN_SECTION_VALUE,  TN_SECTION_SPEC,
+                                      TN_SECTION_MASK,   TN_SECTION_TRAY_PLANS, TN_SECTION_STRINGS};
 
 extern const tn_engine tn_engine_schema;
 const tn_engine tn_engine_schema = {.name = "schema", .sections = sections, .verify = verify, .list = list};

@@ -215,6 +215,33 @@ static tn_status make_many(tn_schema *schema, uint64_t max_trays, tn_error *erro
     return status;
 }
 
+/* ---- schemas of libraries */
+
+/* Records and trays are in one order as far as fields allow: the next record is tried first. */
+static tn_status find_tray_plans(tn_schema *schema, tn_error *error)
+{
+    uint32_t first = schema->record->tray_plans_first, count = schema->record->tray_plans_count, at = 0;
+    uint64_t looks = 0;
+    schema->tray_plans = malloc(((size_t)schema->tray_count + 1) * sizeof *schema->tray_plans);
+    if (!schema->tray_plans)
+        return tn_fail_memory(error);
+    for (tn_tray tray = 0; tray < schema->tray_count; tray++) {
+        uint32_t tried = 0;
+        while (tried < count && !tn_spec_meets(schema, schema->module->TRAY_PLANS_records[first + at].spec, tray)) {
+            at = (at + 1) % count;
+            tried++;
+        }
+        looks += tried;
+        if (looks > TN_SCHEMA_CHECKS_MAX)
+            return too_many(schema, tray, error);
+        if (tried == count)
+            return tn_fail(error, TN_INVALID, E_REFUSED_MODULE, "a tray of schema %s stands for no plan",
+                           tn_text(schema->module, schema->record->name));
+        schema->tray_plans[tray] = first + at;
+    }
+    return TN_OK;
+}
+
 tn_status tn_schema_new(const tn_module *module, uint32_t index, uint64_t max_trays, tn_schema **out, tn_error *error)
 {
     *out = NULL;
@@ -238,6 +265,8 @@ tn_status tn_schema_new(const tn_module *module, uint32_t index, uint64_t max_tr
     }
     if (status == TN_OK && schema->tray_count == 0)
         status = forbids_all(schema, error);
+    if (status == TN_OK && schema->record->tray_plans_count > 0)
+        status = find_tray_plans(schema, error);
     if (status != TN_OK) {
         tn_schema_free(schema);
         return status;
@@ -254,6 +283,7 @@ void tn_schema_free(tn_schema *schema)
     free(schema->tray_values);
     free(schema->tray_masks);
     free(schema->tray_of_code);
+    free(schema->tray_plans);
     free(schema);
 }
 

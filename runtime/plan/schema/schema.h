@@ -29,6 +29,7 @@ typedef struct tn_schema {
     uint64_t *tray_masks;   /* [tray][mask word]: one bit per value that the tray has, as in a specifier */
     uint32_t *tray_of_code; /* all combinations in order -> tray, or TN_NO_TRAY; NULL: they are too many */
     uint64_t code_count;    /* combinations, legal or not; UINT64_MAX: that or more */
+    uint32_t *tray_plans; /* [trays]: the record that says for how many plans a tray stands; NULL: it stands for none */
 } tn_schema;
 
 /* Makes a schema ready; index: of the SCHEMA record. max_trays bounds the legal trays (0: TN_SCHEMA_TRAYS_DEFAULT) and
@@ -70,6 +71,18 @@ uint32_t tn_schema_forbidden_by(const tn_schema *schema, const uint8_t *values);
 
 /* Does a tray meet a specifier (an index into the module's SPEC records, of this schema)? */
 bool tn_spec_meets(const tn_schema *schema, uint32_t spec, tn_tray tray);
+
+/* Do its trays stand for plans of a library? */
+static inline bool tn_schema_of_plans(const tn_schema *schema)
+{
+    return schema->tray_plans != NULL;
+}
+
+/* For how many plans of a library a tray stands, a decimal number: of a schema of a library. */
+static inline const char *tn_tray_plans(const tn_schema *schema, tn_tray tray)
+{
+    return tn_text(schema->module, schema->module->TRAY_PLANS_records[schema->tray_plans[tray]].plans);
+}
 
 /* The field named so, or UINT32_MAX. */
 uint32_t tn_schema_field(const tn_schema *schema, const char *name);

@@ -606,6 +606,8 @@ static tn_status put_libraries(writing *w, const char *asked, tn_error *error)
             w->ok && tn_buffer_printf(w->out, ", %" PRIu32 ", %" PRIu32 ").\n", library->trays_min, library->trays_max);
         if (library->weight_count > 0)
             put(w, "% Its weights say which plans samples draw, and are left out.\n");
+        if (tn_schema_of_plans(w->schema))
+            put(w, "% For how many plans its trays stand is left out.\n");
         for (uint32_t i = 0; status == TN_OK && i < library->clause_count; i++) {
             put_clause(w, library, &module->CLAUSE_records[library->clause_first + i]);
             status = check_clause(w, &module->CLAUSE_records[library->clause_first + i], error);

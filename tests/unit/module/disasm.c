@@ -152,7 +152,9 @@ static void test_long_texts_are_cut(void **state)
     tn_schema_record schema = {.name = tn_builder_string(builder, "toy"),
                                .doc = tn_builder_string(builder, doc),
                                .field_count = 4,
-                               .forbid_count = 1};
+                               .forbid_count = 1,
+                               .from = TN_NO_RECORD,
+                               .of = TN_NO_RECORD};
     tn_builder_set_SCHEMA(builder, 0, &schema);
     char *text = listing(builder);
     assert_null(strchr(text, '\x1b'));

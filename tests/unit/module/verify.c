@@ -190,7 +190,8 @@ static void test_second_schema(void **state)
                                                        .field_first = 4,
                                                        .field_count = 1,
                                                        .forbid_count = 1,
-                                                       .from = TN_NO_RECORD});
+                                                       .from = TN_NO_RECORD,
+                                                       .of = TN_NO_RECORD});
     sample_field(builder, "width", TN_FIELD_CHOICE, TN_ROLE_NONE);
     sample_value(builder, "a", "a", "", 0, 0);
     sample_value(builder, "b", "b", "", 0, 0);

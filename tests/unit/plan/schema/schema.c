@@ -126,7 +126,8 @@ static void test_huge_schema_is_refused(void **state)
                                .field_first = (uint32_t)tn_builder_count(builder, TN_SECTION_FIELD),
                                .field_count = 40,
                                .forbid_first = (uint32_t)tn_builder_count(builder, TN_SECTION_SPEC),
-                               .from = TN_NO_RECORD};
+                               .from = TN_NO_RECORD,
+                               .of = TN_NO_RECORD};
     for (unsigned i = 0; i < 40; i++) {
         char name[16];
         snprintf(name, sizeof name, "flag%u", i);
