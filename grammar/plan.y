@@ -76,6 +76,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token FORM "`form`" STOREY "`storey`" SPINE "`spine`" WALL "`wall`" PARTITION "`partition`" DECK "`deck`" ROOF "`roof`"
 %token SECTION "`section`" VOID "`void`" NO "`no`" FUNCTION "`function`" AT "`at`" CELL "`cell`"
 %token OPENING "`opening`" WIDE "`wide`" HIGH "`high`" SILL "`sill`" CLEAR "`clear`" PASSAGE "`passage`"
+%token WAY "`way`" HEADROOM "`headroom`"
 %token FLIGHT "`flight`" RISE "`rise`" GOING "`going`" TURN "`turn`"
 %token GLAZED "`glazed`" LEAFLESS "`leafless`" NEAR "`near`" SLIDING "`sliding`" MATERIAL "`material`" PRICE "`price`" PER "`per`"
 %token FACE "`face`" BESIDE "`beside`" ALONG "`along`" ACROSS "`across`" UNDER "`under`" OUTSIDE "`outside`"
@@ -777,6 +778,9 @@ form_clause
                                                 { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_TILE, .name = $2, .doc = $3, .list = $5, .parts = $7}); }
     | tile NAME doc FOR names OPEN_BRACE tile_parts error CLOSE_BRACE
                                                 { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_TILE, .name = $2, .doc = $3, .list = $5, .parts = tn_ast_skipped($7, parse)}); yyerrok; }
+    | way size                                  { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_WAY, .length = $2}); }
+    | way size FOR names                        { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_WAY, .length = $2, .list = $4}); }
+    | headroom size                             { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_HEADROOM, .length = $2}); }
     | allow_word names                          { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_ALLOW, .list = $2}); }
     | material NAME STRING price FOR names material_where
                                                 { $4.name = $2; $4.doc = $3; $4.list = $6; $4.first = $7; $$ = tn_ast_form_clause_new(parse, @$, $4); }
@@ -790,6 +794,8 @@ no: NO                                          { yyerrok; };
 function: FUNCTION                              { yyerrok; };
 opening: OPENING                                { yyerrok; };
 flight: FLIGHT                                  { yyerrok; };
+way: WAY                                        { yyerrok; };
+headroom: HEADROOM                              { yyerrok; };
 face: FACE                                      { yyerrok; };
 tile: TILE                                      { yyerrok; };
 material: MATERIAL                              { yyerrok; };

@@ -779,6 +779,9 @@ static void complete_form(lsp_cursor *c)
         complete_codes(c);
     } else if (cursor_is(c, c->clause, "opening")) {
         offer_words(c, TN_AT(OPENING));
+    } else if (cursor_is(c, c->clause, "way")) {
+        offer_parts(c, TN_SYMBOL_FUNCTION, KIND_FUNCTION);
+        offer_words(c, TN_AT(WAY));
     } else if (cursor_is(c, c->clause, "flight")) {
         offer_words(c, TN_AT(FLIGHT));
     } else if (cursor_is(c, c->clause, "section")) {

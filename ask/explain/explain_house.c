@@ -10,7 +10,7 @@
 #include "runtime/house/bare.h"
 #include "runtime/house/rule/witness.h"
 #include "runtime/house/schedule/cost.h"
-#include "runtime/house/solids.h"
+#include "runtime/house/ways.h"
 #include "runtime/plan/measure/amount.h"
 
 /* ---- says why a plan has no house in a form */
@@ -315,6 +315,20 @@ static tn_status add_tile(tn_house_explaining *e, uint32_t cell, uint32_t tile, 
     return to->why ? TN_OK : tn_fail_memory(error);
 }
 
+/* Why a cell without tiles does not fit. */
+static tn_status add_fault(tn_house_explaining *e, uint32_t cell, tn_bare_cell *bare, tn_error *error)
+{
+    tn_way_fault fault;
+    char text[TEXT_MAX];
+    tn_status status = tn_cell_ways(&e->house, cell, &fault, error);
+    if (status != TN_OK)
+        return status;
+    tn_way_fault_text(&e->judge.form, &fault, text, sizeof text);
+    bare->has_why = true;
+    bare->why = strdup(text);
+    return bare->why ? TN_OK : tn_fail_memory(error);
+}
+
 static tn_status add_bare(tn_house_explaining *e, uint32_t cell, tn_list *list, tn_error *error)
 {
     const tn_form_record *form = e->judge.form.record;
@@ -326,10 +340,13 @@ static tn_status add_bare(tn_house_explaining *e, uint32_t cell, tn_list *list, 
     bare->usable = true;
     bare->cell = strdup(text);
     tn_status status = bare->cell ? TN_OK : tn_fail_memory(error);
+    bool tiles = false;
     for (uint32_t t = form->tile_first; status == TN_OK && t < form->tile_first + form->tile_count; t++)
-        if (tn_tile_is_for(&e->house, cell, t))
+        if (tn_tile_is_for(&e->house, cell, t)) {
             status = add_tile(e, cell, t, bare, error);
-    return status;
+            tiles = true;
+        }
+    return status == TN_OK && !tiles ? add_fault(e, cell, bare, error) : status;
 }
 
 static tn_status is_bare(const tn_house_explaining *e, uint32_t cell, bool *bare, tn_error *error)
@@ -337,6 +354,11 @@ static tn_status is_bare(const tn_house_explaining *e, uint32_t cell, bool *bare
     tn_variants tiles;
     tn_status status = tn_tile_variants(&e->house, cell, &tiles, error);
     *bare = status == TN_OK && tiles.wanted && tiles.count == 0;
+    if (status == TN_OK && !tiles.wanted) {
+        tn_way_fault fault;
+        status = tn_cell_ways(&e->house, cell, &fault, error);
+        *bare = fault.fault != TN_FLOOR_FITS || fault.flight;
+    }
     tn_variants_clear(&tiles);
     return status;
 }

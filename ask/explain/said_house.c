@@ -39,7 +39,10 @@ void tn_explained_covered_said(const tn_covered_opening *covered, tn_buffer *out
 
 void tn_explained_bare_said(const tn_bare_cell *cell, bool of_house, tn_buffer *out)
 {
-    if (of_house)
+    if (cell->has_why)
+        tn_buffer_printf(out, "people cannot go about in %s, so this is no house of any library: %s", cell->cell,
+                         cell->why);
+    else if (of_house)
         tn_buffer_printf(out, "no tile stands in %s, so this is no house of any library", cell->cell);
     else
         tn_buffer_printf(out, "%s: %s", cell->cell,

@@ -61,6 +61,11 @@ void tn_survey_note_misfit(const tn_survey *survey, const tn_survey_meeting *mee
 void tn_survey_say_misfit(const tn_survey *survey, tn_diagnostic *diagnostic, const tn_survey_meeting *nearest,
                           uint32_t kind);
 
+/* ---- survey_stairs.c */
+
+/* Warns of stairs without a shape, once, with a flight that has room instead. */
+void tn_survey_stairs(const tn_survey *survey);
+
 /* ---- survey_faces.c: lines of faces that never apply, or are hidden by those before them; notes which kinds are used
  */
 tn_status tn_survey_faces(tn_survey *survey, tn_error *error);

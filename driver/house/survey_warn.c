@@ -3,8 +3,8 @@
 
 #include "driver/house/survey_parts.h"
 #include "runtime/house/count/houses.h"
-#include "runtime/plan/library/library.h"
 #include "runtime/house/solids.h"
+#include "runtime/plan/library/library.h"
 
 static void warn_functions(const tn_survey *s)
 {
@@ -138,6 +138,7 @@ static tn_status warn(tn_survey *s, tn_error *error)
 {
     warn_functions(s);
     warn_voids(s);
+    tn_survey_stairs(s);
     for (uint32_t i = 0; i < s->form.record->opening_count; i++)
         warn_opening(s, i);
     tn_status status = warn_bare(s, error);

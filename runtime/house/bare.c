@@ -192,6 +192,7 @@ tn_status tn_bare_find(const tn_house_form *form, const tn_tray *trays, size_t l
             tn_house_clear(&house);
             continue;
         }
+        house.ways_unknown = true; /* what cells beside it are is not known */
         status = see_section(&house, walls, &steps, first, bare, error);
         first = false;
     } while (status == TN_OK && (first || bare->count > 0) && tn_form_next_section(form, shapes));

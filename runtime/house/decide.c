@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/house/solids.h"
+#include "runtime/house/ways.h"
 #include "runtime/module/code.h"
 
 /* ---- code */
@@ -308,6 +308,23 @@ size_t tn_face_decided(const tn_house *house, const tn_face *face, uint32_t kind
     if (count == 0)
         kinds[count++] = face->relation == TN_FACE_UNDER ? TN_FACE_FLOOR : TN_FACE_WALL;
     return count;
+}
+
+uint32_t tn_face_leaf(const tn_house *house, const tn_face *face)
+{
+    const tn_opening_record *opening = tn_form_opening(house->form, face->kind);
+    uint32_t kinds[TN_FACE_KINDS_MAX], number;
+    if (!opening || !(opening->flags & TN_PASSAGE) || opening->flags & (TN_LEAFLESS | TN_SLIDING))
+        return TN_NO_CELL;
+    if (face->relation == TN_FACE_OUTSIDE)
+        return face->first;
+    tn_face_decided(house, face, kinds, &number);
+    if (number == TN_NO_RECORD)
+        return face->first;
+    const tn_face_line_record *line = &house->form->module->FACE_LINE_records[house->form->record->face_first + number];
+    bool as_written = tn_house_decide(house, line->first, &house->cells[face->first]) &&
+                      tn_house_decide(house, line->second, &house->cells[face->second]);
+    return as_written ? face->first : face->second;
 }
 
 size_t tn_face_options(const tn_house *house, const tn_face *face, uint32_t kinds[TN_FACE_KINDS_MAX])

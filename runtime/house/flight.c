@@ -1,7 +1,7 @@
 /* Flights of stairs: whether they fit between two cells, and where their treads are. */
 #include <stdlib.h>
 
-#include "runtime/house/house.h"
+#include "runtime/house/ways.h"
 
 /* ---- how many steps, and how large */
 
@@ -49,10 +49,49 @@ static tn_steps steps_of(const tn_opening_record *flight, int64_t height, int64_
     return steps.first >= 1 && steps.deep <= deep && steps.wide <= wide ? steps : none;
 }
 
+/* If the form asks for ways: the steps alone, in a room that is so deep as they are climbed at first. */
+static tn_steps bare_steps_of(const tn_opening_record *flight, int64_t height, int64_t deep)
+{
+    int64_t w = flight->wide, g = flight->going, risers = (height + flight->rise_most - 1) / flight->rise_most;
+    tn_steps steps = {.risers = risers, .first = risers - 1, .deep = (risers - 1) * g, .wide = w};
+    if (risers < 4 || risers > TN_FLIGHT_STEPS_MAX || flight->rise_least * risers > height)
+        return (tn_steps){0};
+    int64_t treads = risers - 2, fit = deep > w ? (deep - w) / g : 0;
+    if (flight->turn == TN_TURN_STRAIGHT)
+        return steps;
+    bool half = flight->turn == TN_TURN_HALF;
+    steps.first = half ? (treads + 1) / 2 : fit < treads ? fit : treads;
+    steps.second = treads - steps.first;
+    steps.deep = steps.first * g + w;
+    steps.wide = half ? 2 * w : w + steps.second * g;
+    return steps;
+}
+
+/* Have the steps room there, whatever walls and doors there are? */
+static bool has_room(const tn_opening_record *flight, int64_t height, int64_t deep, int64_t wide)
+{
+    tn_steps steps = bare_steps_of(flight, height, deep);
+    return steps.risers > 0 && steps.deep <= deep && steps.wide <= wide;
+}
+
+static tn_flight_size bare_size(const tn_opening_record *flight, int64_t height)
+{
+    tn_steps steps = bare_steps_of(flight, height, TN_HOUSE_LENGTH_MAX);
+    tn_flight_size size = {steps.risers, steps.deep, steps.wide, flight->turn == TN_TURN_QUARTER};
+    int64_t treads = steps.first + steps.second, first = (treads + 1) / 2;
+    if (size.turns && steps.risers) { /* about as much each way */
+        size.deep = flight->wide + first * flight->going;
+        size.wide = flight->wide + (treads - first) * flight->going;
+    }
+    return size;
+}
+
 tn_flight_size tn_flight_size_in(const tn_house_form *form, uint32_t storey, const tn_opening_record *flight)
 {
     int64_t height = form->level[storey + 1] - form->level[storey];
     bool turns = flight->turn == TN_TURN_QUARTER;
+    if (tn_form_asks_ways(form))
+        return bare_size(flight, height);
     tn_steps steps = steps_of(flight, height, TN_HOUSE_LENGTH_MAX, TN_HOUSE_LENGTH_MAX);
     tn_flight_size size = {steps.risers, steps.deep, steps.wide, turns};
     if (turns && steps.risers) { /* about as much each way */
@@ -93,6 +132,9 @@ bool tn_flight_fits(const tn_house *house, const tn_face *face, const tn_opening
 {
     if (face->relation != TN_FACE_UNDER || has_tiles(house, face->first) || has_tiles(house, face->second))
         return false;
+    int64_t x = face->at.x1 - face->at.x0, y = face->at.y1 - face->at.y0;
+    if (tn_form_asks_ways(house->form))
+        return has_room(flight, storey_height(house, face), y, x) || has_room(flight, storey_height(house, face), x, y);
     return steps_from(house, face, flight, TN_HOUSE_BACK).risers ||
            steps_from(house, face, flight, TN_HOUSE_LEFT).risers;
 }
@@ -181,6 +223,8 @@ tn_status tn_flight_stand(const tn_house *house, const tn_face *face, tn_flight 
 {
     const tn_opening_record *flight = tn_form_flight(house->form, face->kind);
     *to = (tn_flight){0};
+    if (flight && tn_form_asks_ways(house->form))
+        return tn_stack_flight(house, face, to, error);
     tn_house_side side = flight ? side_of(house, face, flight) : TN_HOUSE_ANY_SIDE;
     if (side == TN_HOUSE_ANY_SIDE)
         return TN_OK;
@@ -188,7 +232,8 @@ tn_status tn_flight_stand(const tn_house *house, const tn_face *face, tn_flight 
     tn_rectangle r = clear_of(house, face);
     int64_t w = flight->wide, g = flight->going, height = storey_height(house, face);
     to->treads = malloc((size_t)steps.risers * sizeof *to->treads);
-    if (!to->treads)
+    to->holes = malloc(2 * sizeof *to->holes);
+    if (!to->treads || !to->holes)
         return tn_fail_memory(error);
     for (int64_t i = 0; i < steps.first; i++)
         put_tread(to, rectangle_of(r, side, w + i * g, w + (i + 1) * g, 0, w), i + 1, height, steps.risers);
@@ -201,4 +246,11 @@ tn_status tn_flight_stand(const tn_house *house, const tn_face *face, tn_flight 
     else
         put_path(to, r, side, end, w / 2);
     return TN_OK;
+}
+
+void tn_flight_clear(tn_flight *flight)
+{
+    free(flight->holes);
+    free(flight->treads);
+    *flight = (tn_flight){0};
 }

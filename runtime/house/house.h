@@ -56,6 +56,11 @@ typedef struct tn_house_known {
     size_t room;
 } tn_house_known;
 
+typedef struct tn_face_view tn_face_view; /* runtime/house/ways.h */
+
+/* views: of a house that is a part of another, so that cells beside its own are not there: what its faces lead to
+ * ([faces], borrowed), or NULL. ways_unknown: what is beside cells is not known, so that nothing is asked about ways.
+ */
 typedef struct tn_house {
     const tn_house_form *form;
     tn_tray *trays;
@@ -67,7 +72,9 @@ typedef struct tn_house {
     tn_face *faces;       /* by first cell; then left, back, front, right, above; then y */
     size_t face_count, face_room;
     tn_house_known *known; /* or NULL */
-    bool tiles_left_out;   /* by the line that it was read from: each cell has the first that fits */
+    const tn_face_view *views;
+    bool ways_unknown;
+    bool tiles_left_out; /* by the line that it was read from: each cell has the first that fits */
 } tn_house;
 
 /* Stands a plan up: its cells and faces, without functions and with walls everywhere. The trays are copied. */
@@ -193,6 +200,10 @@ typedef struct tn_variants {
 tn_status tn_tile_variants(const tn_house *house, uint32_t cell, tn_variants *variants, tn_error *error);
 void tn_variants_clear(tn_variants *variants);
 
+/* How many tiles fit in a cell, when all faces are known. Of a cell without tiles 1, or 0 if the form asks for ways and
+ * it does not fit; a stack of cells that flights join has its answer at the lowest. */
+tn_status tn_cell_fillings(const tn_house *house, uint32_t cell, size_t *count, tn_error *error);
+
 /* Why a tile does not stand: of its sides, turned and mirrored, the one where most of its boxes stand,
  * then the one that is later in this order. */
 typedef enum tn_tile_obstacle {
@@ -202,15 +213,22 @@ typedef enum tn_tile_obstacle {
     TN_TILE_BEYOND,  /* a box is not inside the room */
     TN_TILE_MEETS_BOX,
     TN_TILE_MEETS_POST,
-    TN_TILE_MEETS_CLEAR /* what an opening needs clear */
+    TN_TILE_MEETS_CLEAR, /* what an opening needs clear */
+    TN_TILE_SHUTS,       /* nobody can stand in a passage */
+    TN_TILE_CUTS,        /* no way leads to a passage */
+    TN_TILE_CLOSES_KEEP, /* nor to what is kept free */
+    TN_TILE_MEETS_LEAF   /* the leaf of a door has no room */
 } tn_tile_obstacle;
 
-/* box, other: TILE_BOX records. wide, deep, high: of the clear room, as the tile is turned. */
+/* box, other: TILE_BOX records. wide, deep, high: of the clear room, as the tile is turned. kind, at: what is in the
+ * face of the passage or leaf, and at which side of the cell. */
 typedef struct tn_tile_failure {
     tn_tile_obstacle obstacle;
     uint32_t box, other;
     int64_t wide, deep, high;
     tn_house_side side;
+    uint32_t kind;
+    tn_house_side at;
 } tn_tile_failure;
 
 bool tn_tile_is_for(const tn_house *house, uint32_t cell, uint32_t tile);
@@ -238,6 +256,9 @@ void tn_tile_failure_text(const tn_house_form *form, uint32_t tile, const tn_til
 /* A variant's name: `bed.left.m`. */
 #define TN_VARIANT_TEXT (TN_NAME_MAX + 16)
 void tn_variant_text(const tn_house_form *form, const tn_tile_variant *variant, char text[TN_VARIANT_TEXT]);
+
+/* The side of the cell that a face is on; TN_HOUSE_ANY_SIDE where it is none of its walls. */
+tn_house_side tn_face_side(const tn_face *face, uint32_t cell);
 
 /* The clear rectangle of a cell: each side back by half of its thickest wall; an open side as if a wall stood there. */
 tn_rectangle tn_cell_clear(const tn_house *house, uint32_t cell);
@@ -308,10 +329,12 @@ static inline int64_t tn_opening_needs(const tn_house_form *form, const tn_openi
 #define TN_FLIGHT_STEPS_MAX 1000u
 
 /* A flight of stairs as it stands, from one floor to the next. holes: what it takes of the floor above. treads: by
- * height, with landings among them. path: how one walks up it. The caller frees treads. */
+ * height, with landings among them. path: how one walks up it. foot, head: if the form asks for ways, where one stands
+ * before it and behind it. Owns its arrays: clear it in any case. */
 typedef struct tn_flight {
-    tn_rectangle holes[2];
+    tn_rectangle *holes;
     size_t hole_count;
+    tn_rectangle foot, head;
     tn_box *treads; /* z from the lower floor */
     size_t tread_count;
     int64_t path[4][2];
@@ -332,8 +355,10 @@ tn_flight_size tn_flight_size_in(const tn_house_form *form, uint32_t storey, con
  * landings and, at either end, for standing before it, and the storey is a whole number of steps. */
 bool tn_flight_fits(const tn_house *house, const tn_face *face, const tn_opening_record *flight);
 
-/* Stands up the flight in a face, where it has one. It begins at a side from which one can come, if it fits so. */
+/* Stands up the flight in a face, where it has one: at a side from which one can come, if it fits so; or, if the form
+ * asks for ways, in the first place with which all cells of its stack fit. */
 tn_status tn_flight_stand(const tn_house *house, const tn_face *face, tn_flight *flight, tn_error *error);
+void tn_flight_clear(tn_flight *flight);
 
 /* ---- rooms.c */
 

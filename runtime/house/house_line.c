@@ -6,7 +6,7 @@
 
 #include "runtime/base/nearest.h"
 #include "runtime/house/line.h"
-#include "runtime/house/solids.h"
+#include "runtime/house/ways.h"
 #include "runtime/plan/schema/value.h"
 #include "runtime/plan/text/text.h"
 
@@ -399,6 +399,25 @@ static tn_status no_tile(const tn_house *house, const tn_cell *cell, tn_error *e
     return TN_INVALID;
 }
 
+/* A cell without tiles in which people cannot go about makes that there is no such house. */
+static tn_status check_ways(const tn_house *house, uint32_t number, tn_error *error)
+{
+    const tn_house_form *form = house->form;
+    const tn_cell *cell = &house->cells[number];
+    tn_way_fault fault;
+    char why[2 * TN_NAME_MAX];
+    tn_status status = tn_cell_ways(house, number, &fault, error);
+    if (status != TN_OK || (fault.fault == TN_FLOOR_FITS && !fault.flight))
+        return status;
+    tn_way_fault_text(form, &fault, why, sizeof why);
+    tn_fail(error, TN_INVALID, E_BAD_HOUSE, "in the %.80s of tray %u in storey %.80s, %s",
+            tn_text(form->module, tn_form_rule(form, cell->function)->name), cell->tray + 1,
+            tn_text(form->module, form->module->STOREY_records[form->record->storey_first + cell->storey].name), why);
+    tn_error_help(error,
+                  "the form asks for ways that are wide enough: doors elsewhere or a larger cell would leave them");
+    return TN_INVALID;
+}
+
 static tn_status read_tile(tn_house *house, tn_part_reader *reader, uint32_t cell, tn_error *error)
 {
     tn_variants v;
@@ -407,6 +426,8 @@ static tn_status read_tile(tn_house *house, tn_part_reader *reader, uint32_t cel
     const char **texts = NULL;
     if (status == TN_OK && v.wanted && v.count == 0)
         status = no_tile(house, &house->cells[cell], error);
+    if (status == TN_OK && !v.wanted)
+        status = check_ways(house, cell, error);
     if (status == TN_OK && v.count > 0) {
         names = malloc(v.count * sizeof *names);
         texts = malloc(v.count * sizeof *texts);

@@ -163,7 +163,7 @@ static tn_status find_holes(const tn_house *house, uint32_t storey, tn_rectangle
         status = tn_flight_stand(house, face, &flight, error);
         for (size_t h = 0; status == TN_OK && h < flight.hole_count; h++)
             status = tn_rectangles_add(holes, flight.holes[h], error);
-        free(flight.treads);
+        tn_flight_clear(&flight);
     }
     return status;
 }
@@ -183,7 +183,7 @@ static tn_status put_flights(const tn_house *house, tn_solids *solids, tn_error 
             solid.at.z1 += floor;
             status = tn_solids_add(solids, solid, error);
         }
-        free(flight.treads);
+        tn_flight_clear(&flight);
     }
     return status;
 }

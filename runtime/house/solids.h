@@ -111,8 +111,9 @@ tn_fraction tn_profile_height(const tn_profile *profile, tn_int128 y, int64_t ba
 /* Is it the highest cell of its stack? */
 bool tn_cell_is_top(const tn_house *house, uint32_t cell);
 
-/* The highest point of the lower roofs that stand against the outer side of an outside face, along an opening, or (NULL)
- * all of the face: above the lowest floor, in nanometres. false: none stands there. Eaves do not count, which hang free.
+/* The highest point of the lower roofs that stand against the outer side of an outside face, along an opening, or
+ * (NULL) all of the face: above the lowest floor, in nanometres. false: none stands there. Eaves do not count, which
+ * hang free.
  */
 bool tn_face_roofed(const tn_house *house, const tn_face *face, const tn_opening_record *opening, tn_fraction *top);
 

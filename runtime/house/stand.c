@@ -266,6 +266,8 @@ void tn_house_take_section(const tn_house_form *form, const uint32_t *shapes, tn
 {
     house->form = form;
     house->known = NULL;
+    house->views = NULL;
+    house->ways_unknown = false;
     house->length = house->cell_count = house->face_count = 0;
     memset(house->shapes, 0, sizeof house->shapes);
     if (form->record->choice_count)
@@ -304,6 +306,7 @@ tn_status tn_house_copy(const tn_house *house, tn_house *copy, tn_error *error)
 {
     *copy = *house;
     copy->known = NULL;
+    copy->views = NULL;
     copy->cell_room = house->cell_count;
     copy->face_room = house->face_count;
     copy->trays = copy_of(house->trays, house->length, sizeof *house->trays);

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/house/house.h"
+#include "runtime/house/ways.h"
 
 /* What a tile must not stand in, beside its own items: posts, and what openings need clear. */
 typedef struct tn_room {
@@ -15,10 +15,11 @@ typedef struct tn_room {
     tn_box *taken;
     size_t taken_count, taken_room, posts;                              /* the first of the taken are posts */
     uint64_t kinds[TN_HOUSE_SIDE_COUNT][(TN_FACE_KINDS_MAX + 63) / 64]; /* on each side */
+    bool ways;                                                          /* people have to be able to go about in it: */
+    tn_cell_floor floor;
 } tn_room;
 
-/* The side of the cell that a face is on; TN_HOUSE_ANY_SIDE where it is none of its walls. */
-static tn_house_side side_of(const tn_face *face, uint32_t cell)
+tn_house_side tn_face_side(const tn_face *face, uint32_t cell)
 {
     static const tn_house_side opposite[] = {[TN_HOUSE_BACK] = TN_HOUSE_FRONT,
                                              [TN_HOUSE_FRONT] = TN_HOUSE_BACK,
@@ -33,7 +34,7 @@ tn_rectangle tn_cell_clear(const tn_house *house, uint32_t cell)
 {
     int64_t back[TN_HOUSE_SIDE_COUNT] = {0};
     for (size_t i = 0; i < house->face_count; i++) {
-        tn_house_side side = side_of(&house->faces[i], cell);
+        tn_house_side side = tn_face_side(&house->faces[i], cell);
         bool posts = tn_face_is_open_side(&house->faces[i]); /* the room ends where they do */
         int64_t half = (posts ? house->form->record->wall : tn_face_thickness(house, &house->faces[i])) / 2;
         if (half > back[side])
@@ -99,19 +100,26 @@ static tn_status enter(tn_room *room, tn_error *error)
     room->posts = room->taken_count;
     for (size_t i = 0; status == TN_OK && i < house->face_count; i++) {
         const tn_face *face = &house->faces[i];
-        tn_house_side side = side_of(face, room->cell);
+        tn_house_side side = tn_face_side(face, room->cell);
         if (side == TN_HOUSE_ANY_SIDE)
             continue;
         room->kinds[side][face->kind / 64] |= UINT64_C(1) << face->kind % 64;
         status = take_clearance(room, face, side, error);
     }
-    return status;
+    room->ways = tn_form_asks_ways(house->form) && !house->ways_unknown;
+    return status == TN_OK && room->ways ? tn_cell_floor_find(house, room->cell, &room->floor, error) : status;
+}
+
+static void leave(tn_room *room)
+{
+    free(room->taken);
+    tn_cell_floor_clear(&room->floor);
 }
 
 /* ---- one tile on one side */
 
 typedef struct tn_placing {
-    const tn_room *room;
+    tn_room *room;
     const tn_tile_record *tile;
     tn_house_side side;
     bool mirrored;
@@ -121,8 +129,13 @@ typedef struct tn_placing {
 
 static bool fail(tn_placing *p, tn_tile_obstacle obstacle, uint32_t box, uint32_t other)
 {
-    p->failure =
-        (tn_tile_failure){obstacle, p->tile->box_first + box, other, p->wide, p->deep, p->room->height, p->side};
+    p->failure = (tn_tile_failure){.obstacle = obstacle,
+                                   .box = p->tile->box_first + box,
+                                   .other = other,
+                                   .wide = p->wide,
+                                   .deep = p->deep,
+                                   .high = p->room->height,
+                                   .side = p->side};
     return false;
 }
 
@@ -204,6 +217,86 @@ static bool stands(tn_placing *p, tn_variants *v, size_t *count)
     return true;
 }
 
+/* ---- ways past it */
+
+/* What stands lower than a person is high is in the way, as far as it stands on the floor or hangs over it. */
+static tn_status add_items(tn_placing *p, const tn_variants *v, size_t count, tn_error *error)
+{
+    tn_room *room = p->room;
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < count; i++) {
+        const tn_box *at = &v->items[v->item_count + i].at;
+        if (at->z0 < room->house->form->record->headroom)
+            status = tn_rectangles_add(&room->floor.obstacles, (tn_rectangle){at->x0, at->x1, at->y0, at->y1}, error);
+    }
+    return status;
+}
+
+static tn_status add_keeps(const tn_placing *p, tn_rectangles *keeps, tn_error *error)
+{
+    const tn_tile_box_record *boxes = p->room->house->form->module->TILE_BOX_records + p->tile->box_first;
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < p->tile->box_count; i++) {
+        tn_box at;
+        if (boxes[i].flags & TN_TILE_KEEP && place(p, &boxes[i], &at))
+            status = tn_rectangles_add(keeps, (tn_rectangle){at.x0, at.x1, at.y0, at.y1}, error);
+    }
+    return status;
+}
+
+/* The TILE_BOX of a keep, by its number among them. */
+static uint32_t keep_of(const tn_placing *p, size_t number)
+{
+    const tn_tile_box_record *boxes = p->room->house->form->module->TILE_BOX_records + p->tile->box_first;
+    uint32_t i = 0;
+    while (!(boxes[i].flags & TN_TILE_KEEP) || number-- > 0)
+        i++;
+    return p->tile->box_first + i;
+}
+
+static bool fail_ways(tn_placing *p, const tn_floor_answer *answer)
+{
+    static const tn_tile_obstacle obstacles[] = {[TN_FLOOR_FITS] = TN_TILE_STANDS,
+                                                 [TN_FLOOR_SHUT] = TN_TILE_SHUTS,
+                                                 [TN_FLOOR_APART] = TN_TILE_CUTS,
+                                                 [TN_FLOOR_KEEP] = TN_TILE_CLOSES_KEEP,
+                                                 [TN_FLOOR_LEAF] = TN_TILE_MEETS_LEAF};
+    tn_way_fault fault = tn_way_fault_of(p->room->house, p->room->cell, &p->room->floor, answer);
+    uint32_t last = p->tile->box_count > 0 ? p->tile->box_count - 1 : 0;
+    fail(p, obstacles[fault.fault], last, fault.fault == TN_FLOOR_KEEP ? keep_of(p, fault.keep) : 0);
+    p->failure.kind = fault.kind;
+    p->failure.at = fault.side;
+    return false;
+}
+
+/* The items stand behind those that are there. *good: can people go about with them? */
+static tn_status ask_ways(tn_placing *p, const tn_variants *v, size_t count, bool *good, tn_error *error)
+{
+    tn_rectangles *obstacles = &p->room->floor.obstacles, keeps = {0};
+    size_t own = obstacles->count;
+    tn_floor_answer answer = {0};
+    tn_status status = add_items(p, v, count, error);
+    if (status == TN_OK)
+        status = add_keeps(p, &keeps, error);
+    tn_floor asked = tn_cell_floor_of(&p->room->floor);
+    asked.keeps = keeps.items;
+    asked.keep_count = keeps.count;
+    if (status == TN_OK)
+        status = tn_floor_ask(&asked, &answer, error);
+    *good = status == TN_OK && (answer.fits || fail_ways(p, &answer));
+    tn_floor_answer_clear(&answer);
+    obstacles->count = own;
+    free(keeps.items);
+    return status;
+}
+
+/* Does the tile stand, and leaves it ways to go? *count: its items. */
+static tn_status try_to_stand(tn_placing *p, tn_variants *v, size_t *count, bool *good, tn_error *error)
+{
+    *good = stands(p, v, count);
+    return *good && p->room->ways ? ask_ways(p, v, *count, good, error) : TN_OK;
+}
+
 /* ---- equal layouts count once */
 
 static bool same_item(const tn_module *module, const tn_standing_item *a, const tn_standing_item *b)
@@ -231,7 +324,7 @@ static bool is_new(const tn_module *module, const tn_variants *v, const tn_stand
 /* ---- all of them */
 
 /* The tile with its back on a side. False where the side or the size of the room is not one of its. */
-static bool turn(const tn_room *room, uint32_t tile, tn_house_side side, tn_placing *p)
+static bool turn(tn_room *room, uint32_t tile, tn_house_side side, tn_placing *p)
 {
     const tn_tile_record *record = &room->house->form->module->TILE_records[tile];
     bool across = side == TN_HOUSE_BACK || side == TN_HOUSE_FRONT;
@@ -244,7 +337,7 @@ static bool turn(const tn_room *room, uint32_t tile, tn_house_side side, tn_plac
            fail(p, TN_TILE_SIZE, 0, 0);
 }
 
-static tn_status try_side(const tn_room *room, uint32_t tile, tn_house_side side, tn_variants *v, tn_error *error)
+static tn_status try_side(tn_room *room, uint32_t tile, tn_house_side side, tn_variants *v, tn_error *error)
 {
     const tn_module *module = room->house->form->module;
     const tn_tile_record *record = &module->TILE_records[tile];
@@ -253,10 +346,14 @@ static tn_status try_side(const tn_room *room, uint32_t tile, tn_house_side side
         return TN_OK;
     for (int mirrored = 0; mirrored < 2; mirrored++) {
         size_t count;
+        bool good = false;
         placing.mirrored = mirrored;
         if (!make_room(v, record->box_count))
             return tn_fail_memory(error);
-        if (!stands(&placing, v, &count) || !is_new(module, v, v->items + v->item_count, count))
+        tn_status status = try_to_stand(&placing, v, &count, &good, error);
+        if (status != TN_OK)
+            return status;
+        if (!good || !is_new(module, v, v->items + v->item_count, count))
             continue;
         v->variants[v->count++] = (tn_tile_variant){tile, side, mirrored, v->item_count, count};
         v->item_count += count;
@@ -288,20 +385,23 @@ static bool is_further(const tn_tile_failure *a, const tn_tile_failure *b)
 }
 
 /* Turned to each side, plain and mirrored: the failure that came furthest is kept. */
-static tn_status find_failure(const tn_room *room, uint32_t tile, tn_tile_failure *failure, tn_error *error)
+static tn_status find_failure(tn_room *room, uint32_t tile, tn_tile_failure *failure, tn_error *error)
 {
     tn_variants v = {0};
+    tn_status status = TN_OK;
     size_t count;
     *failure = (tn_tile_failure){.obstacle = TN_TILE_NO_SIDE};
     if (!make_room(&v, room->house->form->module->TILE_records[tile].box_count)) {
         tn_variants_clear(&v);
         return tn_fail_memory(error);
     }
-    for (size_t i = 0; i < 2 * (sizeof all_sides / sizeof *all_sides); i++) {
+    for (size_t i = 0; status == TN_OK && i < 2 * (sizeof all_sides / sizeof *all_sides); i++) {
         tn_placing p;
-        bool turned = turn(room, tile, all_sides[i / 2], &p);
+        bool good = turn(room, tile, all_sides[i / 2], &p);
         p.mirrored = i % 2;
-        if (turned && stands(&p, &v, &count)) {
+        if (good)
+            status = try_to_stand(&p, &v, &count, &good, error);
+        if (good) {
             failure->obstacle = TN_TILE_STANDS;
             break;
         }
@@ -309,7 +409,7 @@ static tn_status find_failure(const tn_room *room, uint32_t tile, tn_tile_failur
             *failure = p.failure;
     }
     tn_variants_clear(&v);
-    return TN_OK;
+    return status;
 }
 
 tn_status tn_tile_fails(const tn_house *house, uint32_t cell, uint32_t tile, tn_tile_failure *failure, tn_error *error)
@@ -318,7 +418,7 @@ tn_status tn_tile_fails(const tn_house *house, uint32_t cell, uint32_t tile, tn_
     tn_status status = enter(&room, error);
     if (status == TN_OK)
         status = find_failure(&room, tile, failure, error);
-    free(room.taken);
+    leave(&room);
     return status;
 }
 
@@ -326,7 +426,7 @@ tn_status tn_tile_fails_in(const tn_house_form *form, int64_t wide, int64_t deep
                            tn_tile_failure *failure, tn_error *error)
 {
     const tn_house house = {.form = form};
-    const tn_room room = {.house = &house, .clear = {0, wide, 0, deep}, .height = height};
+    tn_room room = {.house = &house, .clear = {0, wide, 0, deep}, .height = height};
     return find_failure(&room, tile, failure, error);
 }
 
@@ -334,7 +434,7 @@ tn_status tn_tile_turned_in(const tn_house_form *form, int64_t wide, int64_t dee
                             bool *stands_there, tn_error *error)
 {
     const tn_house house = {.form = form};
-    const tn_room room = {.house = &house, .clear = {0, wide, 0, deep}, .height = height};
+    tn_room room = {.house = &house, .clear = {0, wide, 0, deep}, .height = height};
     tn_variants v = {0};
     tn_placing p;
     size_t count;
@@ -348,7 +448,7 @@ tn_status tn_tile_variants_in(const tn_house_form *form, int64_t wide, int64_t d
                               tn_variants *variants, tn_error *error)
 {
     const tn_house house = {.form = form};
-    const tn_room room = {.house = &house, .clear = {0, wide, 0, deep}, .height = height};
+    tn_room room = {.house = &house, .clear = {0, wide, 0, deep}, .height = height};
     tn_status status = TN_OK;
     *variants = (tn_variants){.wanted = true};
     for (size_t i = 0; status == TN_OK && i < sizeof all_sides / sizeof *all_sides; i++)
@@ -372,7 +472,7 @@ tn_status tn_tile_variants(const tn_house *house, uint32_t cell, tn_variants *va
         for (size_t i = 0; status == TN_OK && i < sizeof all_sides / sizeof *all_sides; i++)
             status = try_side(&room, tile, all_sides[i], variants, error);
     }
-    free(room.taken);
+    leave(&room);
     return status;
 }
 
@@ -412,6 +512,20 @@ static void say_no_side(const tn_house_form *form, uint32_t tile, char *text, si
         snprintf(text + used, size - used, ", and no side of the room is that");
 }
 
+/* "where it comes furthest, no way leads through to the `door` at the left" */
+static void say_no_way(const tn_house_form *form, const tn_tile_failure *failure, char *text, size_t size)
+{
+    static const char lead[] = "where it comes furthest, ";
+    const tn_way_fault fault = {.fault = failure->obstacle == TN_TILE_SHUTS  ? TN_FLOOR_SHUT
+                                         : failure->obstacle == TN_TILE_CUTS ? TN_FLOOR_APART
+                                                                             : TN_FLOOR_LEAF,
+                                .kind = failure->kind,
+                                .side = failure->at};
+    snprintf(text, size, "%s", lead);
+    if (size > sizeof lead)
+        tn_way_fault_text(form, &fault, text + sizeof lead - 1, size - (sizeof lead - 1));
+}
+
 void tn_tile_failure_text(const tn_house_form *form, uint32_t tile, const tn_tile_failure *failure,
                           tn_length_style style, char *text, size_t size)
 {
@@ -442,7 +556,14 @@ void tn_tile_failure_text(const tn_house_form *form, uint32_t tile, const tn_til
     case TN_TILE_MEETS_POST:
         snprintf(text, size, "`%s` meets a corner of thicker walls", box);
         return;
-    default:
+    case TN_TILE_MEETS_CLEAR:
         snprintf(text, size, "`%s` stands where an opening is kept clear", box);
+        return;
+    case TN_TILE_CLOSES_KEEP:
+        snprintf(text, size, "where it comes furthest, no way leads to `%s`",
+                 tn_text(module, module->TILE_BOX_records[failure->other].name));
+        return;
+    default:
+        say_no_way(form, failure, text, size);
     }
 }

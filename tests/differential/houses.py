@@ -9,14 +9,14 @@ LENGTHS = {
     "storey": (["9'", "8'"], ["3m", "2.7m"]), "thickness": (["8\"", "10\""], ["200mm", "250mm"]), "partition": (["4\""], ["100mm"]),
     "wide": (["2'8\"", "3'"], ["800mm", "900mm"]), "high": (["6'8\"", "3'"], ["2m", "900mm"]), "sill": (["2'8\""], ["800mm"]),
     "flight": (["3'"], ["900mm"]), "low": (["6\""], ["150mm"]), "rise": (["7 3/4\""], ["200mm"]), "going": (["10\""], ["250mm"]),
-    "short": (["0'", "1'"], ["0m", "300mm"]), "long": (["5'", "12'"], ["1.5m", "4m"]), "roof": (["3'", "1'6\""], ["1m", "450mm"]),
+    "person": (["2'", "2'6\""], ["600mm", "800mm"]), "headroom": (["6'"], ["1.8m"]), "short": (["0'", "1'"], ["0m", "300mm"]), "long": (["5'", "12'"], ["1.5m", "4m"]), "roof": (["3'", "1'6\""], ["1m", "450mm"]),
 }
 
 WEIGHTS.update({
     "size: NUMBER": plans.MISTAKE, "shape: NAME OPEN arguments CLOSE": 2, "cell_not: CELL OPEN specifier CLOSE": 5, "cell_not: NOT cell_not": .2,
     "cell_not: OPEN cells CLOSE": .2, "cells: cell_ors": .08, "cell_and: cell_ands": .1, "sections: section_ors": 1, "section_and: section_ands": 2, "section_ands: section_ands AND section_not": 2,
     "material_where: WHERE sections": 2, "tile_part: stretch_word NAME doc reaches": 2,
-    "section_not: SECTION OPEN section_items CLOSE": 4, "opening_part: PASSAGE": 8, "opening_part: SILL size": .3, "opening_parts: opening_parts opening_part": 2,
+    "section_not: SECTION OPEN section_items CLOSE": 4, "opening_part: PASSAGE": 8, "opening_part: SILL size": .3, "opening_part: NEAR side size": .2, "opening_parts: opening_parts opening_part": 2,
     "section_not: OPEN sections CLOSE": 1, "section_not: NOT section_not": .5,
     "primary: APART OPEN cells COMMA FROM cells walk_by CLOSE": 4, "primary: TOUCH OPEN cells COMMA cells by_kinds CLOSE": 2,
     "by_kinds: BY or_names": .4, "walk_by: COMMA BY or_names": .3, "outside_side: %empty": 2, "relation: BESIDE": 8, "relation: UNDER": .2,
@@ -26,7 +26,7 @@ FORM_CLAUSES = {
     "forbid_word sections": 1, "void cells": .3, "no cells": .2, "function NAME doc AT cells": 0, "opening NAME doc WIDE size HIGH size opening_parts": 0,
     "flight NAME doc WIDE size RISE size DOTS size GOING size turn": .2, "face cells relation cells EQUAL kinds": 2.5,
     "face cells OUTSIDE outside_side EQUAL kinds": 1, "tile NAME doc FOR names OPEN_BRACE tile_parts CLOSE_BRACE": .8, "allow_word names": .2,
-    "material NAME STRING price FOR names material_where": .8,
+    "material NAME STRING price FOR names material_where": .8, "way size": .4, "way size FOR names": .2, "headroom size": .2,
 }
 CELLS = {"counted", "cells"}
 SORTS["primary: CELL OPEN specifier CLOSE"] = QUESTIONS | CELLS
@@ -100,6 +100,8 @@ CONTEXTS.update({
     "form_clause: tile NAME doc FOR names OPEN_BRACE tile_parts CLOSE_BRACE": joined(fresh("bed"), named(_4="function", _6="tile")),
     "form_clause: allow_word names": named(_1="code"),
     "form_clause: material NAME STRING price FOR names material_where": joined(fresh("oak"), named(_2="colour", _3="unit", _5="part")),
+    "form_clause: way size": sized(_1="person"), "form_clause: headroom size": sized(_1="headroom"),
+    "form_clause: way size FOR names": joined(sized(_1="person"), named(_3="function")), "opening_part: NEAR side size": sized(_2="short"),
     "opening_part: SILL size": sized(_1="sill"), "opening_part: CLEAR size": sized(_1="short"),
     "tile_part: WIDE size DOTS size": sized(_1="short", _3="long"), "tile_part: DEEP size DOTS size": sized(_1="short", _3="long"),
     "tile_part: AGAINST or_names": named(_1="outside"), "tile_part: stretch_word NAME doc": fresh("item"),

@@ -272,12 +272,18 @@ static void put_form(drawn_house *d)
     ONE_OF(d, "  function stair at cell(body)\n", "  function stair at cell(body, 8')\n");
     put(d, "  function seat at cell(bay)\n  opening door wide 2'8\" high 6'8\" clear 2' passage\n"
            "  opening window wide 3' high 4' sill 2'8\" glazed\n  opening arch wide 4' high 7' passage leafless\n");
+    if (d->ways)
+        put(d, "  flight dogleg wide 2'6\" rise 6\"..9\" going 9\" turn half\n  way 2'4\"\n  way 2' for bed\n");
     if (d->places)
         put(d, "  face cell(bed) beside cell(bed) = open | wall\n");
     ONE_OF(d, "", "  face cell(bed) along cell(bed) = open | wall\n",
            "  face cell(living) along cell(any) = party | door\n");
-    ONE_OF(d, "  face cell(stair) under cell(stair) = stair\n", "  face cell(any) under cell(stair) = stair | floor\n",
-           "");
+    if (d->ways)
+        ONE_OF(d, "  face cell(stair) under cell(stair) = dogleg\n",
+               "  face cell(any) under cell(stair) = dogleg | floor\n", "");
+    else
+        ONE_OF(d, "  face cell(stair) under cell(stair) = stair\n",
+               "  face cell(any) under cell(stair) = stair | floor\n", "");
     put(d, "  face cell(living) beside cell(living) = open | door\n");
     ONE_OF(d, "  face cell(seat) across cell(any) = open\n", "  face cell(seat) beside cell(any) = open | wall\n",
            "  face cell(seat) beside cell(any) = arch | wall\n", "");
@@ -347,6 +353,7 @@ static void put_comparisons(drawn_house *d)
 void drawn_house_write(drawn_house *d)
 {
     d->size = 0;
+    d->ways = (d->state >> 40) % 3 == 0;
     put(d, "schema hut {\n  width role length = 8' | 10'\n  zone body role band = room(10', 12')\n"
            "  zone bay role band = empty role absent | open(4')\n}\n");
     put_form(d);

@@ -13,6 +13,7 @@
 typedef struct drawn_house {
     uint64_t state;
     bool priced, compares, places;
+    bool ways; /* set by the drawing: the form asks for ways, and has flights instead of stairs */
     char text[8192];
     size_t size;
 } drawn_house;

@@ -160,14 +160,13 @@ static void set_spine(tn_check *check, tn_checked_form *form, const tn_ast_form_
         tn_form_unknown(check, form, ast->name, "zone", zones, count);
 }
 
-/* The nearest length in whole 1/32" or millimetres: half of it is a whole number of nanometres. */
-static void help_half(tn_check *check, tn_diagnostic *d, int64_t length, const char *spelling)
+void tn_form_help_half(tn_check *check, tn_diagnostic *d, const char *why, int64_t length, const char *spelling)
 {
     char text[64];
     tn_length_style style = tn_length_style_of(spelling);
     int64_t unit = style == TN_STYLE_FEET ? INT64_C(793750) : INT64_C(1000000), count = (length + unit / 2) / unit;
     tn_length_write_style((count > 0 ? count : 1) * unit, style, text, sizeof text);
-    tn_help(check->diagnostics, d, "half of it goes to each side of a plane: write %s", text);
+    tn_help(check->diagnostics, d, "%s: write %s", why, text);
 }
 
 static void set_thickness(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast)
@@ -184,7 +183,7 @@ static void set_thickness(tn_check *check, tn_checked_form *form, const tn_ast_f
     if (length == 0)
         tn_help(check->diagnostics, d, "write a length above 0");
     else
-        help_half(check, d, length, ast->length->text);
+        tn_form_help_half(check, d, "half of it goes to each side of a plane", length, ast->length->text);
 }
 
 /* A function whose name is that of something else is kept: what is said of it elsewhere is right then. */
@@ -246,7 +245,7 @@ static void each(tn_check *check, tn_checked_form *form, tn_form_part part)
             tn_check_face(check, form, clause);
         else if (part == TN_PART_TILE)
             tn_check_tile(check, form, clause);
-        else
+        else if (part == TN_PART_MATERIAL)
             tn_check_material(check, form, clause);
     }
 }
@@ -384,6 +383,7 @@ static bool make_room(tn_check *check, tn_checked_form *form)
     form->faces = TN_NEW_ARRAY(check->arena, tn_checked_face, count);
     form->tiles = TN_NEW_ARRAY(check->arena, tn_checked_tile, count);
     form->materials = TN_NEW_ARRAY(check->arena, tn_checked_material, count);
+    form->ways = TN_NEW_ARRAY(check->arena, tn_checked_way, count);
     return !tn_arena_failed(check->arena);
 }
 
@@ -428,6 +428,7 @@ static void check_form(tn_check *check, tn_checked_form *form)
     each(check, form, TN_PART_FLIGHT);
     each(check, form, TN_PART_FACE);
     each(check, form, TN_PART_TILE);
+    tn_check_ways(check, form);
     each(check, form, TN_PART_MATERIAL);
 }
 

@@ -88,6 +88,12 @@ typedef struct tn_checked_material {
     uint32_t part_count;
 } tn_checked_material;
 
+/* `way LENGTH for FUNCTION, ...`. */
+typedef struct tn_checked_way {
+    const tn_ast_form_clause *ast;
+    int64_t length;
+} tn_checked_way;
+
 typedef struct tn_checked_form {
     const tn_ast_form *ast;
     const char *name;
@@ -103,6 +109,9 @@ typedef struct tn_checked_form {
     tn_checked_face *faces;
     tn_checked_tile *tiles;
     tn_checked_material *materials;
+    tn_checked_way *ways;  /* [functions] of each; of those that lines name: ast */
+    int64_t way, headroom; /* 0: nothing is asked about ways */
+    const tn_ast_form_clause *way_ast, *headroom_ast;
     uint32_t index, storey_first, rule_first, shape_first; /* emitted: of its records */
     tn_ast_list allow;                                     /* tn_ast_word: warnings that it does not want */
     uint32_t storey_count, choice_count, rule_count, function_count, opening_count, face_count, tile_count;
@@ -115,6 +124,8 @@ const char *tn_form_in_unit(const tn_checked_form *form, const char *feet, const
 /* ---- form.c (tn_check_forms: check.h) */
 /* The length that a word says, where 0 may stand without a unit; -1 where it is none: then reported. */
 int64_t tn_form_length(tn_check *check, const tn_ast_word *word);
+/* Says why half of a length has to be whole, and the nearest in whole 1/32" or millimetres, whose half is. */
+void tn_form_help_half(tn_check *check, tn_diagnostic *d, const char *why, int64_t length, const char *spelling);
 /* A name that the form does not know: E1602, with the nearest of `names`. */
 void tn_form_unknown(tn_check *check, const tn_checked_form *form, const tn_ast_word *word, const char *what,
                      const char *const *names, size_t count);
@@ -167,6 +178,8 @@ bool tn_form_kind_belongs(const tn_checked_form *form, tn_face_relation relation
 
 /* The kind of a name; TN_NONE: reported, with those that can be in such a face (TN_FACE_RELATION_COUNT: any). */
 uint32_t tn_form_kind(tn_check *check, const tn_checked_form *form, tn_face_relation relation, const tn_ast_word *word);
+/* The lines `way` and `headroom`, once openings and flights are known. */
+void tn_check_ways(tn_check *check, tn_checked_form *form);
 void tn_check_tile(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast);
 
 /* ---- form_material.c */

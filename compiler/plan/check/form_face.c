@@ -1,4 +1,4 @@
-/* Checks the openings of a form, and the lines that say what is in its faces. */
+/* Checks the openings of a form, the lines that say what is in its faces, and what it asks about ways. */
 #include <string.h>
 
 #include "compiler/plan/check/form.h"
@@ -218,4 +218,223 @@ void tn_check_face(tn_check *check, tn_checked_form *form, const tn_ast_form_cla
         tn_form_cell(check, form, ast->second, true, &face->second);
     for (TN_EACH(const tn_ast_word, word, ast->list))
         add_kind(check, form, face, word);
+}
+
+/* ==== ways */
+
+static const tn_ast_form_clause *find(const tn_checked_form *form, tn_form_part part, bool named)
+{
+    for (TN_EACH(const tn_ast_form_clause, clause, form->ast->clauses))
+        if (clause->part == part && (clause->list.count > 0) == named)
+            return clause;
+    return NULL;
+}
+
+static void say_twice(tn_check *check, const tn_ast_form_clause *second, const tn_ast_form_clause *first,
+                      const char *what, const char *name)
+{
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_PART_TWICE, second->node.span, "`%s%s` is there twice", what, name);
+    tn_note(check->diagnostics, d, &first->node.span, "the first time is here");
+    tn_help(check->diagnostics, d, "leave one of the two out");
+}
+
+/* Above 0, and, of a square, with a half that is whole. 0 where it is not so: reported. */
+static int64_t read_length(tn_check *check, const tn_ast_form_clause *ast, const char *what, bool halved)
+{
+    int64_t length = tn_form_length(check, ast->length);
+    if (length > 0 && !(halved && length % 2))
+        return length;
+    if (length < 0)
+        return 0;
+    tn_diagnostic *d = tn_report(
+        check->diagnostics, E_BAD_WAY, ast->length->node.span,
+        length == 0 ? "a `%s` of 0 asks for nothing" : "half of this `%s` is not a whole number of nanometres", what);
+    if (length == 0)
+        tn_help(check->diagnostics, d, "write a length above 0, or leave the line out");
+    else
+        tn_form_help_half(check, d, "people turn about their middle", length, ast->length->text);
+    return 0;
+}
+
+/* ---- way */
+
+static void read_for(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast)
+{
+    const char *names[TN_CELL_RULES_MAX];
+    int64_t length = read_length(check, ast, "way", true);
+    for (uint32_t i = 0; i < form->function_count; i++)
+        names[i] = form->rules[i].ast->name->text;
+    for (TN_EACH(const tn_ast_word, word, ast->list)) {
+        uint32_t function = tn_form_function(form, word->text);
+        if (function == TN_NONE)
+            tn_form_unknown(check, form, word, "function", names, form->function_count);
+        else if (form->ways[function].ast)
+            say_twice(check, ast, form->ways[function].ast, "way for ", word->text);
+        else
+            form->ways[function] = (tn_checked_way){ast, length};
+    }
+}
+
+static void read_ways(tn_check *check, tn_checked_form *form)
+{
+    for (TN_EACH(const tn_ast_form_clause, clause, form->ast->clauses)) {
+        if (clause->part == TN_PART_WAY && clause->list.count > 0) {
+            read_for(check, form, clause);
+        } else if (clause->part == TN_PART_WAY && form->way_ast) {
+            say_twice(check, clause, form->way_ast, "way", "");
+        } else if (clause->part == TN_PART_WAY) {
+            form->way_ast = clause;
+            form->way = read_length(check, clause, "way", true);
+        } else if (clause->part == TN_PART_HEADROOM && form->headroom_ast) {
+            say_twice(check, clause, form->headroom_ast, "headroom", "");
+        } else if (clause->part == TN_PART_HEADROOM) {
+            form->headroom_ast = clause;
+            form->headroom = read_length(check, clause, "headroom", false);
+        }
+    }
+}
+
+/* What is not said: a door of 800 mm, or of 2'8", and a person of 2 m, or of 6'8". */
+static void fill_in(tn_checked_form *form)
+{
+    bool feet = form->storey_count > 0 && tn_length_style_of(form->storeys[0].ast->length->text) == TN_STYLE_FEET;
+    if (form->way == 0)
+        form->way = feet ? 32 * TN_INCH_NM : INT64_C(800000000);
+    if (form->headroom == 0)
+        form->headroom = feet ? 80 * TN_INCH_NM : INT64_C(2000000000);
+}
+
+/* ---- what cannot be there with it */
+
+static const char *written(int64_t length, const char *like, char text[64])
+{
+    tn_length_write_style(length, tn_length_style_of(like), text, 64);
+    return text;
+}
+
+/* Nobody comes into such cells if each opening that one walks through is narrower. */
+static void check_width(tn_check *check, const tn_checked_form *form, const tn_ast_form_clause *ast, int64_t way)
+{
+    const tn_checked_opening *widest = NULL;
+    char shown[64];
+    for (uint32_t i = 0; i < form->opening_count; i++) {
+        const tn_checked_opening *opening = &form->openings[i];
+        if (opening->turn == TN_TURN_NONE && opening->passage && opening->wide > 0 &&
+            (!widest || opening->wide > widest->wide))
+            widest = opening;
+    }
+    if (way == 0 || !widest || widest->wide >= way)
+        return;
+    tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_WAY, ast->length->node.span,
+                                 "this `way` is wider than every opening that one walks through");
+    tn_note(check->diagnostics, d, &widest->ast->length->node.span, "the widest is `%.80s`", widest->ast->name->text);
+    tn_help(check->diagnostics, d, "write %s or less, or make an opening wider",
+            written(widest->wide, ast->length->text, shown));
+}
+
+/* What is usual, in nanometres, by no law: so steep a step is climbed with ease, and two people pass each other. */
+#define USUAL_RISE INT64_C(200000000)
+#define USUAL_GOING INT64_C(250000000)
+#define USUAL_STEP_LEAST INT64_C(550000000) /* two rises and a going */
+#define USUAL_STEP_MOST INT64_C(700000000)
+#define USUAL_WIDTH INT64_C(860000000)
+
+/* What is unusual about a step so high; NULL: nothing. *length: by this; *usual: what would do. */
+static const char *unusual_step(const tn_checked_opening *flight, int64_t rise, int64_t *length, const char **usual)
+{
+    int64_t step = 2 * rise + flight->going;
+    bool steep = rise > USUAL_RISE, shallow = flight->going < USUAL_GOING;
+    *length = steep ? rise : shallow ? flight->going : step;
+    *usual = steep                     ? "at most 200 mm is usual"
+             : shallow                 ? "at least 250 mm is usual"
+             : step < USUAL_STEP_LEAST ? "at least 550 mm is usual"
+                                       : "at most 700 mm is usual";
+    return steep                                               ? "has steps that rise"
+           : shallow                                           ? "has steps with a going of"
+           : step < USUAL_STEP_LEAST || step > USUAL_STEP_MOST ? "has steps of which two rises and a going make"
+                                                               : NULL;
+}
+
+static void warn_unusual(tn_check *check, const tn_checked_opening *flight, const char *what, int64_t length,
+                         const char *usual)
+{
+    char shown[64];
+    tn_diagnostic *d = tn_report(check->diagnostics, W_UNUSUAL_FLIGHT, flight->ast->node.span, "flight `%.80s` %s %s",
+                                 flight->ast->name->text, what, written(length, flight->ast->length->text, shown));
+    tn_help(check->diagnostics, d, "%s; who means it so writes `allow W212`", usual);
+}
+
+/* Common practice is no law: it is said, once for each flight, and not asked for. */
+static void check_usual(tn_check *check, const tn_checked_form *form, const tn_checked_opening *flight)
+{
+    int64_t length;
+    const char *usual, *what = NULL;
+    for (uint32_t k = 0; !what && k + 1 < form->storey_count; k++) {
+        int64_t height = form->storeys[k].height;
+        if (height <= 0 || !climbs(flight, height))
+            continue;
+        int64_t risers = (height + flight->rise_most - 1) / flight->rise_most;
+        what = unusual_step(flight, height / risers, &length, &usual);
+    }
+    if (what)
+        warn_unusual(check, flight, what, length, usual);
+    else if (flight->wide < USUAL_WIDTH)
+        warn_unusual(check, flight, "has a width of", flight->wide, "at least 860 mm is usual");
+}
+
+static void check_flights(tn_check *check, const tn_checked_form *form)
+{
+    char shown[64];
+    bool own = form->unit + 1 == check->imports->count; /* of forms that are used, their own files are told */
+    for (uint32_t i = 0; i < form->opening_count; i++) {
+        const tn_checked_opening *flight = &form->openings[i];
+        bool sized = flight->turn != TN_TURN_NONE && flight->wide > 0 && flight->rise_least > 0 &&
+                     flight->rise_most > 0 && flight->going > 0;
+        if (sized && own && flight->wide >= form->way && tn_check_wanted(check, W_UNUSUAL_FLIGHT))
+            check_usual(check, form, flight);
+        if (!sized || flight->wide >= form->way)
+            continue;
+        tn_diagnostic *d =
+            tn_report(check->diagnostics, E_BAD_FLIGHT, flight->ast->length->node.span,
+                      "flight `%.80s` is narrower than the `way` that people need", flight->ast->name->text);
+        tn_help(check->diagnostics, d, "make it %s wide or more", written(form->way, flight->ast->length->text, shown));
+    }
+}
+
+/* A stair that takes the whole cell leaves no way. */
+static void check_stairs(tn_check *check, const tn_checked_form *form)
+{
+    for (uint32_t i = 0; i < form->face_count; i++)
+        for (TN_EACH(const tn_ast_word, word, form->faces[i].ast->list)) {
+            if (strcmp(word->text, tn_names_FACE_KIND[TN_FACE_STAIR]) != 0)
+                continue;
+            tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_WAY, word->node.span,
+                                         "a `stair` takes its whole cell, and leaves no way");
+            tn_help(check->diagnostics, d, "name a flight there, such as `%s`",
+                    tn_form_in_unit(form, "flight dogleg wide 3' rise 6\"..7 3/4\" going 10\" turn half",
+                                    "flight dogleg wide 900mm rise 150mm..195mm going 250mm turn half"));
+        }
+}
+
+void tn_check_ways(tn_check *check, tn_checked_form *form)
+{
+    read_ways(check, form);
+    const tn_ast_form_clause *any = form->way_ast ? form->way_ast : find(form, TN_PART_WAY, true);
+    if (!any && form->headroom_ast) {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_WAY, form->headroom_ast->node.span,
+                                     "`headroom` without `way` asks for nothing");
+        tn_help(check->diagnostics, d, "add a line such as `way %s`", tn_form_in_unit(form, "2'8\"", "800mm"));
+    }
+    if (!any) {
+        form->headroom = 0;
+        return;
+    }
+    fill_in(form);
+    check_width(check, form, any, form->way_ast ? form->way : 0);
+    for (uint32_t i = 0; i < form->function_count; i++)
+        if (form->ways[i].ast && (i == 0 || form->ways[i].ast != form->ways[i - 1].ast))
+            check_width(check, form, form->ways[i].ast, form->ways[i].length);
+    check_flights(check, form);
+    check_stairs(check, form);
 }

@@ -94,11 +94,13 @@ static void emit_rules(tn_emit *emit, tn_checked_form *form)
         const char *name = rule->ast->name ? rule->ast->name->text : words[rule->kind];
         uint32_t decides = tn_emit_decision(emit, form, &rule->decision, name,
                                             rule->kind == TN_CELL_FORBID ? TN_FUNCTION_SECTION : TN_FUNCTION_CELL);
-        tn_builder_add_CELL_RULE(emit->builder, &(tn_cell_rule_record){.name = text(emit, rule->ast->name),
-                                                                       .doc = text(emit, rule->ast->doc),
-                                                                       .kind = rule->kind,
-                                                                       .decides = decides,
-                                                                       PLACE(rule->ast->node.span)});
+        tn_builder_add_CELL_RULE(emit->builder,
+                                 &(tn_cell_rule_record){.name = text(emit, rule->ast->name),
+                                                        .doc = text(emit, rule->ast->doc),
+                                                        .kind = rule->kind,
+                                                        .decides = decides,
+                                                        .way = i < form->function_count ? form->ways[i].length : 0,
+                                                        PLACE(rule->ast->node.span)});
     }
 }
 
@@ -262,6 +264,8 @@ static void emit_form(tn_emit *emit, tn_checked_form *form)
                                                          .material_first = counts[6],
                                                          .material_count = form->material_count,
                                                          .flags = imported ? TN_IMPORTED : 0,
+                                                         .way = form->way,
+                                                         .headroom = form->headroom,
                                                          PLACE(form->ast->top.node.span)});
 }
 

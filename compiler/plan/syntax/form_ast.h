@@ -23,6 +23,8 @@ typedef enum tn_form_part {
     TN_PART_FACE,
     TN_PART_TILE,
     TN_PART_MATERIAL,
+    TN_PART_WAY,
+    TN_PART_HEADROOM,
     TN_PART_ALLOW
 } tn_form_part;
 
@@ -83,7 +85,7 @@ typedef struct tn_ast_form_clause {
     const tn_ast_word *low, *going; /* flight: the least that its steps rise, and how deep they are */
     tn_face_relation relation;
     tn_ast_expr *first, *second; /* material: where it is used, or NULL */
-    tn_ast_list list;  /* section: tn_ast_shape; face: kinds; tile: functions; material: parts; allow: codes */
+    tn_ast_list list;  /* section: tn_ast_shape; face: kinds; tile, way: functions; material: parts; allow: codes */
     tn_ast_list parts; /* opening: tn_ast_opening_part; tile: tn_ast_tile_part */
 } tn_ast_form_clause;
 

@@ -167,6 +167,8 @@ static void set_taken(tn_cut_plane *p, tn_rectangle open)
 static bool find_free(tn_cut_plane *p)
 {
     const tn_floor *f = p->floor;
+    if (p->deep > 0 && p->wide > UINT32_MAX / 8 / p->deep)
+        return false; /* more than a machine of 32 bits has memory for */
     p->free = calloc(p->wide * p->deep + 1, sizeof *p->free);
     if (!p->free)
         return false;
@@ -182,16 +184,16 @@ static bool find_free(tn_cut_plane *p)
 /* ---- its parts */
 
 /* Takes a free place that has no part yet into the last one; false: it is none. */
-static bool take(tn_cut_plane *p, size_t place, size_t *todo, size_t *count)
+static bool take(tn_cut_plane *p, size_t place, uint32_t *todo, size_t *count)
 {
     if (!p->free[place] || p->part[place] != NO_PART)
         return false;
     p->part[place] = p->parts;
-    todo[(*count)++] = place;
+    todo[(*count)++] = (uint32_t)place;
     return true;
 }
 
-static void spread(tn_cut_plane *p, size_t *todo, size_t count)
+static void spread(tn_cut_plane *p, uint32_t *todo, size_t count)
 {
     while (count > 0) {
         size_t place = todo[--count], x = place / p->deep, y = place % p->deep;
@@ -208,7 +210,8 @@ static void spread(tn_cut_plane *p, size_t *todo, size_t count)
 
 static bool find_parts(tn_cut_plane *p)
 {
-    size_t places = p->wide * p->deep, *todo = malloc((places + 1) * sizeof *todo);
+    size_t places = p->wide * p->deep;
+    uint32_t *todo = malloc((places + 1) * sizeof *todo);
     p->part = malloc((places + 1) * sizeof *p->part);
     if (!todo || !p->part) {
         free(todo);

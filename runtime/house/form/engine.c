@@ -56,6 +56,9 @@ static tn_status check_rules(const tn_checker *checker, const tn_form_record *fo
         if (!decides(checker, rules[i].decides, kind, form->schema))
             return tn_refuse(checker, "line %u of cells names a function of another kind or schema",
                              form->rule_first + i);
+        if (rules[i].way % 2 || (rules[i].way > 0 && form->way == 0))
+            return tn_refuse(checker, "line %u of cells has a way whose half is not whole, or that its form has not",
+                             form->rule_first + i);
         if (i > 0 && rules[i].kind < rules[i - 1].kind)
             return tn_refuse(checker, "line %u of cells is out of order", form->rule_first + i);
     }
@@ -257,6 +260,8 @@ static tn_status check_form(const tn_checker *checker, uint32_t index)
         return tn_refuse(checker, "form %u has a spine that is not a zone, or trays without a length", index);
     if (form->wall % 2 || form->partition % 2)
         return tn_refuse(checker, "form %u has walls whose halves are not whole", index);
+    if (form->way % 2 || (form->way > 0 && form->headroom < 1))
+        return tn_refuse(checker, "form %u has ways whose halves are not whole, or without headroom", index);
     for (uint32_t i = 0; i < form->storey_count; i++)
         if (module->STOREY_records[form->storey_first + i].height <= form->deck)
             return tn_refuse(checker, "storey %u is not higher than its deck", form->storey_first + i);

@@ -3,6 +3,82 @@
 
 #include <string.h>
 
+#include "runtime/module/code.h"
+
+/* ---- functions whose cells are bare */
+
+/* What an answer about a cell of which only the function is known may be. */
+typedef struct tn_maybe {
+    bool yes, no;
+} tn_maybe;
+
+static tn_maybe maybe_of(const tn_instruction *instruction, uint32_t rule)
+{
+    bool function = instruction->opcode == TN_OP_IS_FOR, is = instruction->first == (int64_t)rule;
+    if (instruction->opcode == TN_OP_EVERY)
+        return (tn_maybe){.yes = true};
+    if (instruction->opcode == TN_OP_IS_VOID)
+        return (tn_maybe){.no = true};
+    return function ? (tn_maybe){is, !is} : (tn_maybe){true, true};
+}
+
+/* May a cell with this function (a CELL_RULE) be one that the code decides on? */
+static bool may_be(const tn_module *module, uint32_t decides, uint32_t rule)
+{
+    tn_maybe stack[TN_DECISION_STACK_MAX];
+    size_t depth = 0;
+    for (uint32_t at = module->FUNCTION_records[decides].code_begin;;) {
+        tn_instruction instruction = tn_code_read(module->code, at);
+        at += instruction.length;
+        if (instruction.opcode == TN_OP_DECIDE)
+            return stack[depth - 1].yes;
+        if (instruction.opcode == TN_OP_NONE_OF) {
+            stack[depth - 1] = (tn_maybe){stack[depth - 1].no, stack[depth - 1].yes};
+        } else if (instruction.opcode == TN_OP_ALL_OF || instruction.opcode == TN_OP_ONE_OF) {
+            tn_maybe a = stack[depth - 2], b = stack[depth - 1];
+            bool all = instruction.opcode == TN_OP_ALL_OF;
+            stack[--depth - 1] =
+                all ? (tn_maybe){a.yes && b.yes, a.no || b.no} : (tn_maybe){a.yes || b.yes, a.no && b.no};
+        } else {
+            stack[depth++] = maybe_of(&instruction, rule);
+        }
+    }
+}
+
+static bool climbs(const tn_house_form *form, const tn_face_line_record *line)
+{
+    bool any = false;
+    for (uint32_t k = 0; line->relation == TN_FACE_UNDER && k < line->kind_count; k++) {
+        uint32_t kind = form->module->HOUSE_ITEM_records[line->kind_first + k].number;
+        any |= kind == TN_FACE_STAIR || tn_form_flight(form, kind);
+    }
+    return any;
+}
+
+static void take_out(tn_house_form *form, uint32_t function)
+{
+    form->bare[function / 64] &= ~(UINT64_C(1) << function % 64);
+}
+
+static void find_bare(tn_house_form *form)
+{
+    const tn_module *module = form->module;
+    for (uint32_t f = 0; f < tn_form_functions(form); f++)
+        form->bare[f / 64] |= UINT64_C(1) << f % 64;
+    for (uint32_t t = 0; t < form->record->tile_count; t++) {
+        const tn_tile_record *tile = &module->TILE_records[form->record->tile_first + t];
+        for (uint32_t i = 0; i < tile->purpose_count; i++)
+            take_out(form, module->HOUSE_ITEM_records[tile->purpose_first + i].number);
+    }
+    for (uint32_t i = 0; i < form->record->face_count; i++) {
+        const tn_face_line_record *line = &module->FACE_LINE_records[form->record->face_first + i];
+        for (uint32_t f = 0; climbs(form, line) && f < tn_form_functions(form); f++)
+            if (may_be(module, line->first, form->record->rule_first + f) ||
+                may_be(module, line->second, form->record->rule_first + f))
+                take_out(form, f);
+    }
+}
+
 void tn_form_ready(const tn_module *module, uint32_t index, const tn_schema *schema, tn_house_form *form)
 {
     const tn_form_record *record = &module->FORM_records[index];
@@ -20,6 +96,8 @@ void tn_form_ready(const tn_module *module, uint32_t index, const tn_schema *sch
     }
     for (uint32_t i = 0; i < record->storey_count; i++)
         form->level[i + 1] = form->level[i] + module->STOREY_records[record->storey_first + i].height;
+    if (record->way > 0)
+        find_bare(form);
 }
 
 const char *tn_form_kind_text(const tn_house_form *form, uint32_t kind)

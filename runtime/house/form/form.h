@@ -19,10 +19,18 @@ typedef struct tn_house_form {
     uint32_t zone_count;
     uint32_t kinds_end[TN_CELL_RULE_KIND_COUNT]; /* rules of a kind end there; those of the next one begin */
     int64_t level[TN_STOREYS_MAX + 1];           /* the floor of each storey, and what is above the last */
+    uint64_t
+        bare[(TN_CELL_RULES_MAX + 63) / 64]; /* if it asks for ways: a bit for each function whose cells are bare */
 } tn_house_form;
 
 /* Makes the FORM record `index` ready; `schema` is its schema. */
 void tn_form_ready(const tn_module *module, uint32_t index, const tn_schema *schema, tn_house_form *form);
+
+/* Have cells of the function nothing in them: neither tiles, nor flights or stairs of any line of faces? */
+static inline bool tn_form_is_bare(const tn_house_form *form, uint32_t function)
+{
+    return form->bare[function / 64] >> function % 64 & 1;
+}
 
 /* How many functions it has; function i is rule i. */
 static inline uint32_t tn_form_functions(const tn_house_form *form)

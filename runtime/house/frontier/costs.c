@@ -12,142 +12,327 @@
 #include "runtime/house/frontier/frontier.h"
 #include "runtime/house/frontier/states.h"
 #include "runtime/house/schedule/cost.h"
+#include "runtime/house/ways.h"
 
+/* Words of a base: then come the functions of its cells, of which there are more than one if flights join them; then
+ * faces. Words of a side: for each of the cells the number of its faces and of its posts, then these. */
 enum {
-    BASE_FUNCTION,
+    BASE_CELLS,
     BASE_STOREY,
+    BASE_ZONE, /* if the roof above is in people's way; else NO_ZONE */
     BASE_WIDTH,
     BASE_Y0 = BASE_WIDTH + 2,
     BASE_Y1 = BASE_Y0 + 2,
-    BASE_FACES = BASE_Y1 + 2
+    BASE_FUNCTIONS = BASE_Y1 + 2
 };
-enum { BASE_FACE_SIDE, BASE_FACE_KIND, BASE_FACE_WORDS };
-enum { SIDE_FACES, SIDE_FIRST };
-enum { FACE_KIND, FACE_Y0, FACE_Y1 = FACE_Y0 + 2, FACE_WORDS = FACE_Y1 + 2 };
+enum { BASE_FACE_CELL, BASE_FACE_SIDE, BASE_FACE_KIND, BASE_FACE_WORDS };
+enum { SIDE_FACES, SIDE_POSTS, SIDE_FIRST };
+enum { SIDE_FACE_Y0, SIDE_FACE_Y1 = SIDE_FACE_Y0 + 2, SIDE_FACE_KIND = SIDE_FACE_Y1 + 2, SIDE_FACE_WORDS };
+enum {
+    FLOOR_X0,
+    FLOOR_X1 = FLOOR_X0 + 2,
+    FLOOR_Y0 = FLOOR_X1 + 2,
+    FLOOR_Y1 = FLOOR_Y0 + 2,
+    FLOOR_WORDS = FLOOR_Y1 + 2
+};
 enum { POST_Y, POST_THICK = POST_Y + 2, POST_WORDS };
 enum { THICK_X = 1, THICK_Y = 2 }; /* as thick as an outside wall */
+enum { KIND_OUTSIDE = 1, KIND_LEAF = 2, KIND_FLOOR = 4, KIND_BEYOND = 8, KIND_OF = 32 }; /* FLOOR: its words follow */
+#define NO_ZONE UINT32_MAX
 
-static uint32_t kind_word(const tn_face *face)
+bool tn_frontier_fills(const tn_frontier *frontier, const tn_house *house, uint32_t cell)
 {
-    return face->kind << 1 | (face->relation == TN_FACE_OUTSIDE);
+    const tn_cell *c = &house->cells[cell];
+    return !c->open && frontier->tiles.tiled[c->function] &&
+           !(tn_form_asks_ways(frontier->form) && tn_flight_below(house, cell));
+}
+
+/* How many cells are filled together: those that flights join. */
+static uint32_t cells_from(const tn_frontier *frontier, const tn_house *house, uint32_t cell)
+{
+    uint32_t count = 1;
+    while (tn_form_asks_ways(frontier->form) && tn_flight_above(house, cell + count - 1))
+        count++;
+    return count;
+}
+
+/* What is in the face, as the cell sees it: without furniture, what nobody comes in by is a wall. */
+static uint32_t kind_seen(const tn_frontier *frontier, const tn_cell *cell, const tn_face *face)
+{
+    const tn_opening_record *opening = tn_form_opening(frontier->form, face->kind);
+    bool shut = face->relation == TN_FACE_OUTSIDE && face->storey > 0;
+    bool plain = opening && (shut || !(opening->flags & TN_PASSAGE)) && !frontier->tiles.furnished[cell->function];
+    return plain ? TN_FACE_WALL : face->kind;
+}
+
+/* Appends the word of a face, and with it the floor beyond if a flight may reach over to that; x from the cell's left.
+ */
+static bool push_face(tn_frontier *frontier, const tn_house *house, uint32_t index, uint32_t cell, bool flights,
+                      tn_key *key)
+{
+    const tn_face *face = &house->faces[index];
+    const tn_cell *c = &house->cells[cell];
+    uint32_t kind = kind_seen(frontier, c, face), word = kind * KIND_OF + (face->relation == TN_FACE_OUTSIDE);
+    if (!tn_form_asks_ways(frontier->form))
+        return tn_key_push(key, word);
+    tn_face_view view = tn_face_seen(house, index, cell);
+    bool open = face->kind == TN_FACE_OPEN, floor = flights && open && view.beyond == TN_BEYOND_BARE;
+    word += KIND_BEYOND * (open || view.beyond != TN_BEYOND_BARE ? view.beyond : TN_BEYOND_FURNISHED);
+    word += (view.leaf && kind != TN_FACE_WALL ? KIND_LEAF : 0) + (floor ? KIND_FLOOR : 0);
+    return tn_key_push(key, word) &&
+           (!floor || (tn_push_long(key, (uint64_t)(view.floor.x0 - c->at.x0)) &&
+                       tn_push_long(key, (uint64_t)(view.floor.x1 - c->at.x0)) &&
+                       tn_push_long(key, (uint64_t)view.floor.y0) && tn_push_long(key, (uint64_t)view.floor.y1)));
+}
+
+/* ---- of its own walls */
+
+static bool push_own_faces(tn_frontier *frontier, const tn_house *house, uint32_t first, uint32_t count, tn_key *key)
+{
+    bool ok = true;
+    for (uint32_t i = 0; ok && i < house->face_count; i++) {
+        const tn_face *face = &house->faces[i];
+        for (uint32_t k = 0; ok && k < count; k++) {
+            tn_house_side side = tn_face_side(face, first + k);
+            bool flight = face->relation == TN_FACE_UNDER && face->first == first + k && k + 1 < count;
+            if (flight)
+                ok = tn_key_push(key, k) && tn_key_push(key, TN_HOUSE_ANY_SIDE) &&
+                     tn_key_push(key, face->kind * KIND_OF);
+            else if (side == TN_HOUSE_BACK || side == TN_HOUSE_FRONT)
+                ok = tn_key_push(key, k) && tn_key_push(key, side) &&
+                     push_face(frontier, house, i, first + k, count > 1, key);
+        }
+    }
+    return ok;
+}
+
+/* Does an open roof above the cell leave too little headroom somewhere? */
+static bool is_lowered(const tn_frontier *frontier, const tn_house *house, uint32_t cell)
+{
+    const tn_house_form *form = frontier->form;
+    uint32_t storey = house->cells[cell].storey;
+    return tn_form_asks_ways(form) && form->level[storey + 1] - form->level[storey] < form->record->headroom &&
+           tn_cell_is_top(house, cell);
 }
 
 tn_status tn_frontier_fit_base(tn_frontier *frontier, const tn_house *house, uint32_t cell, uint32_t *base,
                                tn_error *error)
 {
     const tn_cell *c = &house->cells[cell];
+    uint32_t count = cells_from(frontier, house, cell), top = cell + count - 1;
     tn_key *key = &frontier->key;
     key->size = 0;
-    bool ok = tn_key_push(key, c->function) && tn_key_push(key, c->storey) &&
+    bool ok = tn_key_push(key, count) && tn_key_push(key, c->storey) &&
+              tn_key_push(key, is_lowered(frontier, house, top) ? c->zone : NO_ZONE) &&
               tn_push_long(key, (uint64_t)(c->at.x1 - c->at.x0)) && tn_push_long(key, (uint64_t)c->at.y0) &&
               tn_push_long(key, (uint64_t)c->at.y1);
-    for (size_t i = 0; ok && i < house->face_count; i++) {
-        const tn_face *face = &house->faces[i];
-        bool back = face->side == TN_HOUSE_BACK || face->side == TN_HOUSE_FRONT;
-        if (!back || (face->first != cell && face->second != cell))
-            continue;
-        bool front = (face->side == TN_HOUSE_FRONT) == (face->first == cell);
-        ok = tn_key_push(key, front ? TN_HOUSE_FRONT : TN_HOUSE_BACK) && tn_key_push(key, kind_word(face));
-    }
+    for (uint32_t k = 0; ok && k < count; k++)
+        ok = tn_key_push(key, house->cells[cell + k].function);
+    ok = ok && push_own_faces(frontier, house, cell, count, key);
     *base = ok ? tn_intern(&frontier->tiles.bases, key->data, key->size) : UINT32_MAX;
     return *base != UINT32_MAX ? TN_OK : tn_fail_memory(error);
 }
 
-tn_status tn_frontier_fit_side(tn_frontier *frontier, const tn_house *house, uint32_t cell, tn_house_side side,
-                               int64_t x, const tn_posts *posts, uint32_t *fit, tn_error *error)
+/* ---- of a side */
+
+static bool push_posts(const tn_house *house, const tn_cell *c, int64_t x, const tn_posts *posts, size_t head,
+                       tn_key *key)
 {
-    const tn_cell *c = &house->cells[cell];
     int64_t wall = house->form->record->wall;
-    tn_key *key = &frontier->key;
-    key->size = 0;
-    bool ok = tn_key_push(key, 0);
-    (void)side;
-    for (size_t i = 0; ok && i < house->face_count; i++) {
-        const tn_face *face = &house->faces[i];
-        if (face->relation == TN_FACE_UNDER || face->at.x0 != x || face->at.x1 != x ||
-            (face->first != cell && face->second != cell))
-            continue;
-        ok = tn_key_push(key, kind_word(face)) && tn_push_long(key, (uint64_t)face->at.y0) &&
-             tn_push_long(key, (uint64_t)face->at.y1);
-        key->data[SIDE_FACES]++;
-    }
+    bool ok = true;
     for (size_t i = 0; ok && i < posts->count; i++) {
         const tn_post *post = &posts->items[i];
         if (post->x != x || post->y < c->at.y0 || post->y > c->at.y1 || post->thick_x == 0 || post->thick_y == 0)
             continue;
         uint32_t thick = (post->thick_x == wall ? THICK_X : 0u) | (post->thick_y == wall ? THICK_Y : 0u);
         ok = tn_push_long(key, (uint64_t)post->y) && tn_key_push(key, thick);
+        key->data[head + SIDE_POSTS]++;
     }
-    *fit = ok ? tn_intern(&frontier->tiles.sides, key->data, key->size) : UINT32_MAX;
-    return *fit != UINT32_MAX ? TN_OK : tn_fail_memory(error);
+    return ok;
+}
+
+static bool push_side_faces(tn_frontier *frontier, const tn_house *house, uint32_t cell, int64_t x, bool flights,
+                            size_t head, tn_key *key)
+{
+    bool ok = true;
+    for (uint32_t i = 0; ok && i < house->face_count; i++) {
+        const tn_face *face = &house->faces[i];
+        if (face->relation == TN_FACE_UNDER || face->at.x0 != x || face->at.x1 != x ||
+            (face->first != cell && face->second != cell))
+            continue;
+        ok = tn_push_long(key, (uint64_t)face->at.y0) && tn_push_long(key, (uint64_t)face->at.y1) &&
+             push_face(frontier, house, i, cell, flights, key);
+        key->data[head + SIDE_FACES]++;
+    }
+    return ok;
+}
+
+tn_status tn_frontier_fit_side(tn_frontier *frontier, const tn_house *house, uint32_t cell, int64_t x,
+                               const tn_posts *posts, uint32_t *fit, tn_error *error)
+{
+    uint32_t count = cells_from(frontier, house, cell);
+    tn_key *key = &frontier->key;
+    tn_status status = TN_OK;
+    key->size = 0;
+    for (uint32_t k = 0; status == TN_OK && k < count; k++) {
+        const tn_cell *c = &house->cells[cell + k];
+        tn_posts own = {0};
+        size_t head = key->size;
+        if (k > 0)
+            status = tn_house_posts(house, c->storey, NULL, &own, error);
+        if (status == TN_OK && !(tn_key_push(key, 0) && tn_key_push(key, 0) &&
+                                 push_side_faces(frontier, house, cell + k, x, count > 1, head, key) &&
+                                 push_posts(house, c, x, k > 0 ? &own : posts, head, key)))
+            status = tn_fail_memory(error);
+        free(own.items);
+    }
+    *fit = status == TN_OK ? tn_intern(&frontier->tiles.sides, key->data, key->size) : UINT32_MAX;
+    return status == TN_OK && *fit == UINT32_MAX ? tn_fail_memory(error) : status;
 }
 
 /* ---- the cell by itself */
 
-enum { CELL, OTHER, CELLS }; /* the other cell has the ends of walls that are not the cell's */
+/* The house of a cell, or of those that flights join: they come first, then another, which has the ends of walls that
+ * are not theirs. */
+typedef struct tn_cells_alone {
+    tn_house house;
+    tn_face_view *views; /* [faces] */
+    uint32_t cells;
+} tn_cells_alone;
 
-static tn_face *add(tn_house *house, uint32_t first, tn_house_side side, uint32_t kind, tn_rectangle at)
+enum { CELL };
+
+static tn_face_view *add(tn_cells_alone *alone, uint32_t first, tn_house_side side, uint32_t kind, tn_rectangle at)
 {
-    tn_face *face = &house->faces[house->face_count++];
-    bool outside = kind & 1;
-    *face = (tn_face){.first = first,
-                      .second = outside ? TN_NO_CELL : OTHER,
-                      .relation = outside ? TN_FACE_OUTSIDE : TN_FACE_BESIDE,
-                      .side = side,
-                      .at = at,
-                      .storey = house->cells[CELL].storey,
-                      .kind = kind >> 1};
-    return face;
+    tn_house *house = &alone->house;
+    bool outside = kind & KIND_OUTSIDE;
+    house->faces[house->face_count] = (tn_face){.first = first,
+                                                .second = outside ? TN_NO_CELL : alone->cells,
+                                                .relation = outside ? TN_FACE_OUTSIDE : TN_FACE_BESIDE,
+                                                .side = side,
+                                                .at = at,
+                                                .storey = house->cells[first].storey,
+                                                .kind = kind / KIND_OF};
+    alone->views[house->face_count] = (tn_face_view){
+        .beyond = (tn_beyond)(kind / KIND_BEYOND % (KIND_OF / KIND_BEYOND)), .leaf = (kind & KIND_LEAF) != 0};
+    return &alone->views[house->face_count++];
+}
+
+/* Reads the floor that follows the word of a face, if one does. Returns where the next word is. */
+static const uint32_t *read_floor(uint32_t kind, const uint32_t *words, tn_face_view *view)
+{
+    if (!(kind & KIND_FLOOR))
+        return words;
+    view->floor = (tn_rectangle){(int64_t)tn_both(words + FLOOR_X0), (int64_t)tn_both(words + FLOOR_X1),
+                                 (int64_t)tn_both(words + FLOOR_Y0), (int64_t)tn_both(words + FLOOR_Y1)};
+    return words + FLOOR_WORDS;
 }
 
 /* A short end of a wall, as thick as an outside wall or a partition. */
-static void add_end(tn_house *house, bool thick, tn_rectangle at)
+static void add_end(tn_cells_alone *alone, uint32_t storey, bool thick, tn_rectangle at)
 {
-    add(house, OTHER, TN_HOUSE_BACK, (uint32_t)TN_FACE_WALL << 1 | thick, at);
+    add(alone, alone->cells, TN_HOUSE_BACK, TN_FACE_WALL * KIND_OF + (thick ? KIND_OUTSIDE : 0), at);
+    alone->house.faces[alone->house.face_count - 1].storey = storey;
 }
 
-static void add_side(const tn_frontier *frontier, tn_house *house, uint32_t side, bool left)
+static void add_side(const tn_frontier *frontier, tn_cells_alone *alone, uint32_t side, bool left)
 {
     size_t size;
-    const uint32_t *words = tn_interned(&frontier->tiles.sides, side, &size), *end = words + size;
-    int64_t x = left ? house->cells[CELL].at.x0 : house->cells[CELL].at.x1, away = left ? -1 : 1;
-    uint32_t faces = words[SIDE_FACES];
-    for (words += SIDE_FIRST; faces > 0; faces--, words += FACE_WORDS)
-        add(house, CELL, left ? TN_HOUSE_LEFT : TN_HOUSE_RIGHT, words[FACE_KIND],
-            (tn_rectangle){x, x, (int64_t)tn_both(words + FACE_Y0), (int64_t)tn_both(words + FACE_Y1)});
-    for (; words < end; words += POST_WORDS) {
-        int64_t y = (int64_t)tn_both(words + POST_Y);
-        add_end(house, words[POST_THICK] & THICK_X, (tn_rectangle){x, x, y, y});
-        add_end(house, words[POST_THICK] & THICK_Y,
-                left ? (tn_rectangle){x + away, x, y, y} : (tn_rectangle){x, x + away, y, y});
+    const uint32_t *words = tn_interned(&frontier->tiles.sides, side, &size);
+    int64_t x = left ? alone->house.cells[CELL].at.x0 : alone->house.cells[CELL].at.x1, away = left ? -1 : 1;
+    for (uint32_t k = 0; k < alone->cells; k++) {
+        uint32_t faces = words[SIDE_FACES], posts = words[SIDE_POSTS], storey = alone->house.cells[k].storey;
+        for (words += SIDE_FIRST; faces > 0; faces--) {
+            int64_t y0 = (int64_t)tn_both(words + SIDE_FACE_Y0), y1 = (int64_t)tn_both(words + SIDE_FACE_Y1);
+            uint32_t kind = words[SIDE_FACE_KIND];
+            tn_face_view *view =
+                add(alone, k, left ? TN_HOUSE_LEFT : TN_HOUSE_RIGHT, kind, (tn_rectangle){x, x, y0, y1});
+            words = read_floor(kind, words + SIDE_FACE_WORDS, view);
+        }
+        for (; posts > 0; posts--, words += POST_WORDS) {
+            int64_t y = (int64_t)tn_both(words + POST_Y);
+            add_end(alone, storey, words[POST_THICK] & THICK_X, (tn_rectangle){x, x, y, y});
+            add_end(alone, storey, words[POST_THICK] & THICK_Y,
+                    left ? (tn_rectangle){x + away, x, y, y} : (tn_rectangle){x, x + away, y, y});
+        }
     }
 }
 
-static tn_status build(const tn_frontier *frontier, uint32_t base, uint32_t left, uint32_t right, tn_house *house,
+static void add_own(tn_cells_alone *alone, const uint32_t *words, const uint32_t *end)
+{
+    tn_house *house = &alone->house;
+    tn_rectangle at = house->cells[CELL].at;
+    while (words < end) {
+        uint32_t cell = words[BASE_FACE_CELL], side = words[BASE_FACE_SIDE], kind = words[BASE_FACE_KIND];
+        int64_t y = side == TN_HOUSE_BACK ? at.y0 : at.y1;
+        tn_face_view *view = add(alone, cell, (tn_house_side)side, kind, (tn_rectangle){at.x0, at.x1, y, y});
+        if (side == TN_HOUSE_ANY_SIDE) {
+            tn_face *face = &house->faces[house->face_count - 1];
+            face->relation = TN_FACE_UNDER;
+            face->second = cell + 1;
+            face->at = at;
+        }
+        words = read_floor(kind, words + BASE_FACE_WORDS, view);
+    }
+}
+
+static void add_cells(tn_cells_alone *alone, const uint32_t *words)
+{
+    tn_house *house = &alone->house;
+    tn_cell cell = {.zone = words[BASE_ZONE],
+                    .at = {0, (int64_t)tn_both(words + BASE_WIDTH), (int64_t)tn_both(words + BASE_Y0),
+                           (int64_t)tn_both(words + BASE_Y1)}};
+    for (uint32_t k = 0; k <= alone->cells; k++) {
+        house->cells[k] = cell;
+        house->cells[k].tray = k == alone->cells;
+        house->cells[k].storey = words[BASE_STOREY] + (k == alone->cells ? 0 : k);
+        house->cells[k].function = words[BASE_FUNCTIONS + (k == alone->cells ? 0 : k)];
+    }
+}
+
+static void clear_alone(tn_cells_alone *alone)
+{
+    free(alone->house.cells);
+    free(alone->house.faces);
+    free(alone->views);
+}
+
+static tn_status build(const tn_frontier *frontier, uint32_t base, uint32_t left, uint32_t right, tn_cells_alone *alone,
                        tn_error *error)
 {
     size_t size, sides[2];
     const uint32_t *words = tn_interned(&frontier->tiles.bases, base, &size);
     tn_interned(&frontier->tiles.sides, left, &sides[0]);
     tn_interned(&frontier->tiles.sides, right, &sides[1]);
-    *house = (tn_house){.form = frontier->form, .length = 1, .cell_count = CELLS};
-    memcpy(house->shapes, frontier->shapes, frontier->form->record->choice_count * sizeof *frontier->shapes);
-    house->cells = calloc(CELLS, sizeof *house->cells);
-    house->faces = calloc(size + sides[0] + sides[1] + 1, sizeof *house->faces);
-    if (!house->cells || !house->faces)
+    size_t faces = size + sides[0] + sides[1] + 1;
+    *alone = (tn_cells_alone){.cells = words[BASE_CELLS]};
+    alone->house = (tn_house){.form = frontier->form, .length = 1, .cell_count = (size_t)alone->cells + 1};
+    memcpy(alone->house.shapes, frontier->shapes, frontier->form->record->choice_count * sizeof *frontier->shapes);
+    alone->house.cells = calloc(alone->house.cell_count, sizeof *alone->house.cells);
+    alone->house.faces = calloc(faces, sizeof *alone->house.faces);
+    alone->views = calloc(faces, sizeof *alone->views);
+    if (!alone->house.cells || !alone->house.faces || !alone->views)
         return tn_fail_memory(error);
-    int64_t wide = (int64_t)tn_both(words + BASE_WIDTH), y0 = (int64_t)tn_both(words + BASE_Y0),
-            y1 = (int64_t)tn_both(words + BASE_Y1);
-    house->cells[CELL] = house->cells[OTHER] =
-        (tn_cell){.storey = words[BASE_STOREY], .function = words[BASE_FUNCTION], .at = {0, wide, y0, y1}};
-    for (size_t i = BASE_FACES; i < size; i += BASE_FACE_WORDS) {
-        int64_t y = words[i + BASE_FACE_SIDE] == TN_HOUSE_BACK ? y0 : y1;
-        add(house, CELL, (tn_house_side)words[i + BASE_FACE_SIDE], words[i + BASE_FACE_KIND],
-            (tn_rectangle){0, wide, y, y});
-    }
-    add_side(frontier, house, left, true);
-    add_side(frontier, house, right, false);
+    alone->house.views = alone->views;
+    add_cells(alone, words);
+    add_own(alone, words + BASE_FUNCTIONS + alone->cells, words + size);
+    add_side(frontier, alone, left, true);
+    add_side(frontier, alone, right, false);
     return TN_OK;
+}
+
+/* The tiles that fit; of a cell without tiles one without items, if it is as it has to be. */
+static tn_status find_tiles(const tn_cells_alone *alone, tn_variants *tiles, tn_error *error)
+{
+    size_t count = 0;
+    tn_status status = tn_tile_variants(&alone->house, CELL, tiles, error);
+    if (status != TN_OK || tiles->wanted)
+        return status;
+    status = tn_cell_fillings(&alone->house, CELL, &count, error);
+    tiles->variants = status == TN_OK ? calloc(1, sizeof *tiles->variants) : NULL;
+    tiles->items = status == TN_OK ? calloc(1, sizeof *tiles->items) : NULL;
+    tiles->count = count;
+    return status == TN_OK && !(tiles->variants && tiles->items) ? tn_fail_memory(error) : status;
 }
 
 tn_status tn_frontier_fit(tn_frontier *frontier, uint32_t base, uint32_t left, uint32_t right, uint32_t *tiles,
@@ -163,24 +348,24 @@ tn_status tn_frontier_fit(tn_frontier *frontier, uint32_t base, uint32_t left, u
         *tiles = frontier->tiles.fits[at];
         return TN_OK;
     }
-    tn_house house;
+    tn_cells_alone alone;
     tn_variants variants = {0};
-    tn_status status = build(frontier, base, left, right, &house, error);
+    tn_status status = build(frontier, base, left, right, &alone, error);
     if (status == TN_OK)
-        status = tn_tile_variants(&house, CELL, &variants, error);
+        status = find_tiles(&alone, &variants, error);
     *tiles = (uint32_t)variants.count;
     if (status == TN_OK && frontier->prices.items)
-        status = tn_frontier_list_tiles(frontier, &house, &variants, tiles, error);
+        status = tn_frontier_list_tiles(frontier, &alone.house, &variants, tiles, error);
     frontier->tiles.fits[at] = *tiles;
     tn_variants_clear(&variants);
-    free(house.cells);
-    free(house.faces);
+    clear_alone(&alone);
     return status;
 }
 
 void tn_frontier_tiles_clear(tn_frontier_tiles *tiles)
 {
     free(tiles->tiled);
+    free(tiles->furnished);
     tn_interner_clear(&tiles->bases);
     tn_interner_clear(&tiles->sides);
     tn_numbering_clear(&tiles->fit_keys[0]);
@@ -477,6 +662,10 @@ static tn_status check_openings(const tn_frontier *frontier, tn_error *error)
         if (opening->turn != TN_TURN_NONE && is_priced(form, TN_OF_DECK, BY_NUMBER))
             return refuse(frontier, "flights cut decks in pieces, and these have a price each",
                           "give the price of decks per area, or per volume", error);
+        if (opening->turn != TN_TURN_NONE && tn_form_asks_ways(form) &&
+            (is_priced(form, TN_OF_DECK, BY_ANY) || is_priced(form, TN_OF_COUNT + i, BY_ANY)))
+            return refuse(frontier, "where a flight stands depends on the doors of all trays around it",
+                          "give neither decks nor flights a price, or ask nothing about costs", error);
         if (opening->turn == TN_TURN_QUARTER && is_priced(form, TN_OF_COUNT + i, BY_VOLUME))
             return refuse(frontier, "a flight that turns a quarter has a price per volume",
                           "give its price per area, or for each", error);

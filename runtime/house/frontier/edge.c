@@ -16,7 +16,7 @@
 #include "runtime/house/frontier/frontier.h"
 #include "runtime/house/frontier/states.h"
 #include "runtime/house/rule/asked.h"
-#include "runtime/house/solids.h"
+#include "runtime/house/ways.h"
 
 /* Bits of a line in a description. */
 enum { LINE_FIRST, LINE_SECOND, LINE_BITS };
@@ -164,12 +164,13 @@ static bool applies(const tn_face_line_record *line, uint32_t place, const uint3
            (line->relation == TN_FACE_BESIDE && speaks(left, place, LINE_SECOND) && speaks(right, place, LINE_FIRST));
 }
 
-/* Appends the lines between two, or (right NULL) those outside on a side. */
+/* Appends the lines between two, or (right NULL) those outside on a side. Which of the two a line names first matters
+ * to leaves of doors, if the form asks for ways: the lowest bit. */
 static bool push_lines(const tn_frontier *frontier, const uint32_t *left, const uint32_t *right, uint32_t side,
                        tn_key *key)
 {
     const tn_house_form *form = frontier->form;
-    bool ok = true, more = true;
+    bool ok = true, more = true, ways = tn_form_asks_ways(form);
     for (uint32_t i = 0, place = 0; ok && more && i < form->record->face_count; i++) {
         const tn_face_line_record *line = line_at(form, i);
         if (line->relation == TN_FACE_UNDER || line->relation == TN_FACE_ACROSS)
@@ -179,7 +180,8 @@ static bool push_lines(const tn_frontier *frontier, const uint32_t *left, const 
         place++;
         if (!outside && !(right && applies(line, place - 1, left, right)))
             continue;
-        ok = tn_key_push(key, i);
+        bool as_written = ways && right && speaks(left, place - 1, LINE_FIRST) && speaks(right, place - 1, LINE_SECOND);
+        ok = tn_key_push(key, i << 1 | as_written);
         more = !always_fits(form, line);
     }
     return ok && tn_key_push(key, TN_FRONTIER_NONE);
@@ -200,6 +202,7 @@ static void reach_kind(const tn_frontier *frontier, uint32_t kind, tn_reached_ov
     if (over == OVER_NOTHING)
         return;
     reach->open = reach->open || (over == OVER_SAME_FUNCTION && kind == TN_FACE_OPEN);
+    reach->ways = reach->ways || kind == TN_FACE_OPEN;
     for (uint32_t w = 0; w < q->walk_count; w++)
         reach->walks |= (uint32_t)tn_walk_goes_through(frontier->form, &module->MEETING_records[q->walks[w]], kind)
                         << w;
@@ -213,7 +216,7 @@ static void reach_lines(const tn_frontier *frontier, const uint32_t *lines, cons
 {
     const tn_house_form *form = frontier->form;
     for (; lines < end && *lines != TN_FRONTIER_NONE; lines++) {
-        const tn_face_line_record *line = line_at(form, *lines);
+        const tn_face_line_record *line = line_at(form, *lines >> 1);
         for (uint32_t k = 0; k < line->kind_count; k++)
             reach_kind(frontier, form->module->HOUSE_ITEM_records[line->kind_first + k].number, over, reach);
     }
@@ -353,6 +356,12 @@ static const uint64_t *matter_at(const tn_inside *in, tn_frontier_role_at role, 
     return s->edges.borders.matter[role] + in->cells[cell]->description * s->questions.answer_words;
 }
 
+/* Over an open side, a flight of stairs may begin or end on the floor of a bare cell. */
+static bool is_bare(const tn_frontier *frontier, const tn_cell *cell)
+{
+    return tn_form_asks_ways(frontier->form) && !cell->open && tn_form_is_bare(frontier->form, cell->function);
+}
+
 /* A room of cells that something is asked of goes on into cells with the same function. If it is asked where rooms are,
  * all cells have their functions. */
 static bool push_cells(const tn_inside *in, tn_frontier_role_at role, tn_key *key)
@@ -364,11 +373,14 @@ static bool push_cells(const tn_inside *in, tn_frontier_role_at role, tn_key *ke
         const tn_frontier_cut *known = in->cells[i];
         const tn_frontier_reach *reach = tn_inside_reach(in, role, (uint32_t)i);
         const uint64_t *matter = matter_at(in, role, (uint32_t)i);
-        bool tiled = !cell->open && s->tiles.tiled[cell->function],
+        bool tiled = tn_frontier_fills(s, &in->house, (uint32_t)i), bare = reach->ways && is_bare(s, cell),
+             furnished = tiled && s->tiles.furnished[cell->function],
              goes_on = !cell->open &&
                        (s->questions.placed_count > 0 || (reach->open && s->questions.asked_function[cell->function]));
         ok = tn_push_long(key, (uint64_t)cell->at.y0) && tn_push_long(key, (uint64_t)cell->at.y1) &&
-             tn_key_push(key, cell->storey << 2 | (uint32_t)cell->open << 1 | tiled) &&
+             tn_key_push(key, cell->storey << 4 | (uint32_t)furnished << 3 | (uint32_t)bare << 2 |
+                                  (uint32_t)cell->open << 1 | tiled) &&
+             (!bare || tn_push_long(key, (uint64_t)(cell->at.x1 - cell->at.x0))) &&
              tn_key_push(key, goes_on ? cell->function : TN_NO_FUNCTION) &&
              tn_key_push(key, s->edges.borders.classes[role][known->description]);
         for (size_t w = 0; ok && w < s->questions.answer_words; w++)
@@ -450,7 +462,7 @@ static bool keep_edge(const tn_inside *in, tn_frontier_role_at role, tn_frontier
     for (size_t i = 0; i < count; i++) {
         const tn_cell *cell = &in->house.cells[i];
         edge->cells[i] = (tn_frontier_cell){cell->at.y0,    cell->at.y1, cell->storey,
-                                            cell->function, cell->open,  !cell->open && s->tiles.tiled[cell->function]};
+                                            cell->function, cell->open,  tn_frontier_fills(s, &in->house, (uint32_t)i)};
         for (size_t w = 0; w < s->questions.answer_words; w++)
             edge->answers[i * s->questions.answer_words + w] =
                 in->cells[i]->answers[w] & matter_at(in, role, (uint32_t)i)[w];

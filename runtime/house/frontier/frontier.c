@@ -9,6 +9,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/house/frontier/states.h"
+#include "runtime/house/ways.h"
 
 tn_status tn_frontier_limit(const tn_frontier *frontier, const char *clause, const char *what, tn_error *error)
 {
@@ -591,11 +592,14 @@ tn_status tn_frontier_pending_class(tn_frontier *frontier, uint32_t base, uint32
 static void find_tiled(tn_frontier *frontier)
 {
     const tn_house_form *form = frontier->form;
+    for (uint32_t f = 0; tn_form_asks_ways(form) && f < tn_form_functions(form); f++)
+        frontier->tiles.tiled[f] = frontier->tiles.any = true;
     for (uint32_t t = 0; t < form->record->tile_count; t++) {
         const tn_tile_record *tile = &form->module->TILE_records[form->record->tile_first + t];
         for (uint32_t i = 0; i < tile->purpose_count; i++)
-            frontier->tiles.tiled[form->module->HOUSE_ITEM_records[tile->purpose_first + i].number] =
-                frontier->tiles.any = true;
+            frontier->tiles.furnished[form->module->HOUSE_ITEM_records[tile->purpose_first + i].number] =
+                frontier->tiles.tiled[form->module->HOUSE_ITEM_records[tile->purpose_first + i].number] =
+                    frontier->tiles.any = true;
     }
 }
 
@@ -604,7 +608,8 @@ static tn_status begin(tn_frontier *frontier, tn_error *error)
     const tn_house_form *form = frontier->form;
     frontier->slices.of_tray = calloc((size_t)form->schema->tray_count + 1, sizeof *frontier->slices.of_tray);
     frontier->slices.furnished = calloc((size_t)form->schema->tray_count + 1, sizeof *frontier->slices.furnished);
-    frontier->tiles.tiled = calloc((size_t)tn_form_functions(form) + 1, sizeof *frontier->tiles.tiled);
+    frontier->tiles.tiled = calloc((size_t)form->record->rule_count + 1, sizeof *frontier->tiles.tiled);
+    frontier->tiles.furnished = calloc((size_t)form->record->rule_count + 1, sizeof *frontier->tiles.furnished);
     frontier->questions.asked_function =
         calloc((size_t)tn_form_functions(form) + 1, sizeof *frontier->questions.asked_function);
     frontier->reading.scratch =
@@ -613,8 +618,8 @@ static tn_status begin(tn_frontier *frontier, tn_error *error)
     frontier->reading.after_interface =
         calloc((size_t)frontier->trays_most + 1, sizeof *frontier->reading.after_interface);
     if (!frontier->slices.of_tray || !frontier->slices.furnished || !frontier->tiles.tiled ||
-        !frontier->questions.asked_function || !frontier->reading.scratch || !frontier->reading.after_slice ||
-        !frontier->reading.after_interface)
+        !frontier->tiles.furnished || !frontier->questions.asked_function || !frontier->reading.scratch ||
+        !frontier->reading.after_slice || !frontier->reading.after_interface)
         return tn_fail_memory(error);
     for (uint32_t k = 0; k < frontier->added->count; k++) {
         frontier->compared.weighed_rooms[k] = calloc((size_t)frontier->added->of[k]->count + 1, sizeof(uint32_t));

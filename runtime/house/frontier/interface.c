@@ -11,6 +11,7 @@
 #include "runtime/house/frontier/frontier.h"
 #include "runtime/house/frontier/states.h"
 #include "runtime/house/rule/asked.h"
+#include "runtime/house/ways.h"
 
 /* Words of what comes of a part: the meetings (two words), the number of steps and STEP_WORDS for each, then for each
  * cell of its storeys its place and SIDE_WORDS; then, if costs are asked for, the number of the interface's. */
@@ -42,6 +43,7 @@ typedef struct tn_interface_house {
     tn_room_open *open; /* [cells]: of the rooms that they are in */
     uint32_t *sides;    /* [cells][SIDE_WORDS] */
     uint64_t changed;   /* storeys of whose faces one has another kind than when sides were found */
+    uint64_t climbed;   /* if the form asks for ways: storeys from which a flight leads to the next */
     int64_t x;
     tn_interface_part *parts;
     size_t part_count;
@@ -145,10 +147,9 @@ static tn_status find_side(const tn_interface_house *c, uint32_t i, const tn_pos
                            tn_error *error)
 {
     tn_frontier *s = c->frontier;
-    const tn_cell *cell = &c->house.cells[i];
-    bool tiled = !cell->open && s->tiles.tiled[cell->function];
-    uint32_t fit = 0, glass = tn_frontier_number_area(s, interface_glass(c, i));
+    uint32_t at, fit = 0, glass = tn_frontier_number_area(s, interface_glass(c, i));
     uint64_t marks = 0;
+    bool tiled = edge_of(c, i, &at)->cells[at].tiled;
     tn_status status = glass != UINT32_MAX ? TN_OK : tn_fail_memory(error);
     for (size_t k = 0; c->open[i].kinds != 0 && k < c->count; k++) {
         const tn_face *face = &c->house.faces[c->faces[k]];
@@ -156,8 +157,7 @@ static tn_status find_side(const tn_interface_house *c, uint32_t i, const tn_pos
     }
     marks &= c->open[i].kinds;
     if (status == TN_OK && tiled)
-        status = tn_frontier_fit_side(s, &c->house, i, i < c->left_cells ? TN_HOUSE_RIGHT : TN_HOUSE_LEFT, c->x, posts,
-                                      &fit, error);
+        status = tn_frontier_fit_side(s, &c->house, i, c->x, posts, &fit, error);
     side[SIDE_MARKS] = tn_low(marks);
     side[SIDE_MARKS_HIGH] = tn_high(marks);
     side[SIDE_FIT] = fit + tiled;
@@ -167,9 +167,9 @@ static tn_status find_side(const tn_interface_house *c, uint32_t i, const tn_pos
 
 static bool has_tiles(const tn_interface_house *c, uint32_t storey)
 {
-    for (size_t i = 0; i < c->house.cell_count; i++) {
-        const tn_cell *cell = &c->house.cells[i];
-        if (cell->storey == storey && !cell->open && c->frontier->tiles.tiled[cell->function])
+    for (uint32_t i = 0; i < c->house.cell_count; i++) {
+        uint32_t at;
+        if (c->house.cells[i].storey == storey && edge_of(c, i, &at)->cells[at].tiled)
             return true;
     }
     return false;
@@ -216,12 +216,15 @@ static bool push_side(const tn_interface_house *c, uint32_t cell, tn_key *key)
     return ok;
 }
 
-/* Of storeys in which no face has changed, sides are what they were. */
+/* Of storeys in which no face has changed, sides are what they were, unless flights join them to others. */
 static tn_status push_part_sides(tn_interface_house *c, const tn_interface_part *part, tn_key *key, tn_error *error)
 {
     tn_status status = TN_OK;
+    uint64_t stale = c->changed & part->storeys;
+    if (stale != 0 && c->climbed != 0) /* cells of several storeys are filled together */
+        stale = part->storeys;
     for (uint32_t storey = 0; status == TN_OK && storey < TN_STOREYS_MAX; storey++)
-        if (c->changed >> storey & 1 && part_has(part, storey))
+        if (stale >> storey & 1)
             status = find_sides(c, storey, error);
     c->changed = status == TN_OK ? c->changed & ~part->storeys : c->changed;
     for (uint32_t i = 0; status == TN_OK && i < c->house.cell_count; i++)
@@ -582,20 +585,26 @@ static tn_status add_choices(tn_interface_house *c, tn_interface_part *part, tn_
     return status;
 }
 
-/* Storeys are parts of their own. Not if choices are wanted in their order, nor if costs are asked for, which are
- * of the interface as a whole. */
+/* Storeys are parts of their own, but for those that flights join if the form asks for ways. Not if choices are wanted
+ * in their order, nor if costs are asked for, which are of the interface as a whole. */
 static tn_status find_parts(tn_interface_house *c, tn_error *error)
 {
     uint64_t storeys = 0;
     for (size_t i = 0; i < c->house.cell_count; i++)
         storeys |= UINT64_C(1) << c->house.cells[i].storey;
+    for (size_t i = 0; tn_form_asks_ways(c->house.form) && i < c->house.face_count; i++)
+        if (tn_form_flight(c->house.form, c->house.faces[i].kind))
+            c->climbed |= UINT64_C(1) << c->house.faces[i].storey;
     bool whole = c->ordered || c->frontier->prices.asked;
     c->parts = calloc(TN_STOREYS_MAX, sizeof *c->parts);
     if (!c->parts)
         return tn_fail_memory(error);
-    for (uint32_t storey = 0; !whole && storey < TN_STOREYS_MAX; storey++)
+    for (uint32_t storey = 0; !whole && storey < TN_STOREYS_MAX; storey++) {
+        bool joined = storey > 0 && c->climbed >> (storey - 1) & 1;
+        c->part_count += storeys >> storey & 1 && !joined;
         if (storeys >> storey & 1)
-            c->parts[c->part_count++].storeys = UINT64_C(1) << storey;
+            c->parts[c->part_count - 1].storeys |= UINT64_C(1) << storey;
+    }
     if (whole)
         c->parts[c->part_count++].storeys = UINT64_MAX;
     return TN_OK;

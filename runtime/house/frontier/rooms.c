@@ -103,7 +103,7 @@ static tn_status push_cell(const tn_inside_rooms *r, uint32_t cell, tn_key *key,
     const tn_cell *at = &in->house.cells[cell];
     uint32_t base = 0, room = r->of[cell];
     tn_whole_room own = {0};
-    if (!at->open && frontier->tiles.tiled[at->function]) {
+    if (tn_frontier_fills(frontier, &in->house, cell)) {
         tn_status status = tn_frontier_fit_base(frontier, &in->house, cell, &base, error);
         if (status != TN_OK)
             return status;

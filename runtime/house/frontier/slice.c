@@ -4,7 +4,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/house/frontier/states.h"
-#include "runtime/house/solids.h"
+#include "runtime/house/ways.h"
 
 /* A tray that is being cut: each wheel is a cell's functions or an inner face's kinds. */
 typedef struct tn_cutting {
@@ -261,6 +261,13 @@ static bool turn(tn_options *options, size_t count)
     return false;
 }
 
+/* Do people come in there, if the form asks for ways? */
+static bool lets_pass(const tn_frontier *s, const tn_face *face, uint32_t kind)
+{
+    const tn_opening_record *opening = tn_form_opening(s->form, kind);
+    return tn_form_asks_ways(s->form) && opening && opening->flags & TN_PASSAGE && face->storey == 0;
+}
+
 /* Can a room of the cell tell one kind from the other? Walls have no openings, and are as thick as those that have. */
 static bool tells_apart(const tn_cutting *c, const tn_face *face, const tn_room_open *open, uint32_t one,
                         uint32_t other)
@@ -273,6 +280,8 @@ static bool tells_apart(const tn_cutting *c, const tn_face *face, const tn_room_
         tn_face with = *face;
         with.kind = kinds[k];
         if (kinds[k] != TN_FACE_WALL && !tn_form_opening(s->form, kinds[k]))
+            return true;
+        if (lets_pass(s, face, kinds[k]))
             return true;
         marks[k] = tn_frontier_marks(s, kinds[k]) & open->kinds;
         glass[k] = open->glass ? tn_face_glazing(&c->inside.house, &with) : 0;
@@ -287,7 +296,7 @@ static tn_status merge_kinds(const tn_cutting *c, const tn_face *face, tn_option
     tn_frontier *s = c->inside.frontier;
     const tn_cell *cell = &c->inside.house.cells[face->first];
     if (c->ordered || face->relation != TN_FACE_OUTSIDE || cell->open || s->prices.asked ||
-        s->tiles.tiled[cell->function])
+        s->tiles.furnished[cell->function])
         return TN_OK;
     tn_room_open open;
     uint64_t fails = tn_frontier_answers_fail(s, c->inside.cells[face->first]->answers);

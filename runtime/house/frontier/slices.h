@@ -59,6 +59,7 @@ typedef struct tn_frontier_reach {
     uint64_t marks, meetings;
     uint32_t walks;
     bool open, glazed;
+    bool ways; /* nothing at all, whatever is beyond: people come and go there, if the form asks for ways */
 } tn_frontier_reach;
 
 /* What lines of faces can tell of cells at interfaces: edge.c. */

@@ -40,7 +40,8 @@ typedef struct tn_frontier_merged {
 enum { PENDING_CELL, PENDING_CLASS, PENDING_WORDS };
 
 typedef struct tn_frontier_tiles {
-    bool *tiled, any;         /* [functions] */
+    bool *furnished;          /* [functions] tiles are for it */
+    bool *tiled, any;         /* [functions] its cells are filled: by tiles or, where ways are asked for, as they are */
     tn_interner bases, sides; /* of cells: what of their own walls matters to tiles, and what of a side */
     tn_numbering fit_keys[2]; /* {base, left side}, then {that, right side} */
     uint32_t *fits;           /* [fit_keys[1]]: tiles */
@@ -53,11 +54,14 @@ typedef struct tn_frontier_tiles {
 
 void tn_frontier_tiles_clear(tn_frontier_tiles *tiles);
 
+/* Is the cell filled, in one of several ways or in none? Cells that flights join are filled together, at the lowest. */
+bool tn_frontier_fills(const tn_frontier *frontier, const tn_house *house, uint32_t cell);
+
 /* What of a cell's own walls matters to its tiles, and what of a side. 0: nothing does. */
 tn_status tn_frontier_fit_base(tn_frontier *frontier, const tn_house *house, uint32_t cell, uint32_t *base,
                                tn_error *error);
-tn_status tn_frontier_fit_side(tn_frontier *frontier, const tn_house *house, uint32_t cell, tn_house_side side,
-                               int64_t x, const tn_posts *posts, uint32_t *fit, tn_error *error);
+tn_status tn_frontier_fit_side(tn_frontier *frontier, const tn_house *house, uint32_t cell, int64_t x,
+                               const tn_posts *posts, uint32_t *fit, tn_error *error);
 
 /* How many tiles fit; if they have prices, the number of the list of what they cost, which is 0 if none fits. */
 tn_status tn_frontier_fit(tn_frontier *frontier, uint32_t base, uint32_t left, uint32_t right, uint32_t *tiles,

@@ -6,6 +6,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/house/model/model.h"
+#include "runtime/house/ways.h"
 
 #define DOUBLE_LEAF_NM INT64_C(1220000000) /* 4': wider doors have two leaves */
 
@@ -32,7 +33,7 @@ static tn_status take_steps(const tn_house *house, const tn_face *face, tn_taken
         tn_box at = flight.treads[i];
         status = tn_rectangles_add(&taken->items, (tn_rectangle){at.x0, at.x1, at.y0, at.y1}, error);
     }
-    free(flight.treads);
+    tn_flight_clear(&flight);
     return status;
 }
 
@@ -122,7 +123,8 @@ static bool is_clear(const tn_swing *way, const tn_rectangles *taken)
     return clear;
 }
 
-/* One that slides is on the first side. Of others, the first that meets nothing; else the first that meets no furniture; else the first. */
+/* One that slides is on the first side. If the form asks for ways, its line says into which cell a leaf opens. Of
+ * others, the first that meets nothing; else the first that meets no furniture; else the first. */
 static tn_swing choose_way(const tn_house *house, const tn_face *face, const tn_box *hole, const tn_taken *taken)
 {
     const tn_cell *first = &house->cells[face->first],
@@ -133,7 +135,10 @@ static tn_swing choose_way(const tn_house *house, const tn_face *face, const tn_
         ways[0].sliding = true;
         return ways[0];
     }
-    for (int late = 0; second && !second->open && late < 2; late++)
+    uint32_t leaf = tn_form_asks_ways(house->form) ? tn_face_leaf(house, face) : TN_NO_CELL;
+    if (leaf != TN_NO_CELL && leaf == face->second)
+        count = 0;
+    for (int late = 0; second && !second->open && leaf != face->first && late < 2; late++)
         ways[count++] = way_of(face, hole, second, late);
     for (int i = 0; i < count; i++)
         if (is_clear(&ways[i], &taken->items) && is_clear(&ways[i], &taken->stairs) &&

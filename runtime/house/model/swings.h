@@ -1,5 +1,6 @@
 /* How the doors of a house hang and swing: into the room that comes first, unless only the other is free, and hung
- * where they meet no furniture, no stair and no other door, if that can be; or slide. Plans draw them so, building models say so.
+ * where they meet no furniture, no stair and no other door, if that can be; or slide. Plans draw them so, building
+ * models say so.
  *
  * Coordinates are nanometres of the house. A tn_taken and a tn_swings own their arrays; free them with their _clear.
  */

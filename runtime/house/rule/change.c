@@ -115,7 +115,12 @@ static tn_status carry_tiles(const tn_changing *c, const tn_house_change *change
         tn_variants v;
         uint32_t old = same_cell(c->house, &to->cells[i]);
         status = tn_tile_variants(to, i, &v, error);
-        *fit = !v.wanted || v.count > 0;
+        *fit = v.count > 0;
+        if (status == TN_OK && !v.wanted) {
+            size_t fillings = 0;
+            status = tn_cell_fillings(to, i, &fillings, error);
+            *fit = fillings > 0;
+        }
         if (old != TN_NO_CELL)
             to->cells[i].variant = find_tile(&v, &c->tiles[old]);
         if (change->kind == TN_CHANGE_TILE && change->of == i)

@@ -12,6 +12,7 @@
 #include "runtime/house/rule/asked.h"
 #include "runtime/house/rule/stages.h"
 #include "runtime/house/schedule/cost.h"
+#include "runtime/house/ways.h"
 
 /* How many tiles fit in a cell, kept for cells of one function and storey that are equally large and have the same in
  * and near their faces: plans of a library have few kinds of these. */
@@ -82,14 +83,18 @@ static void clear_fits(tn_fits *fits)
     tn_interner_clear(&fits->cells);
 }
 
-static bool is_wanted(const tn_fits *fits, const tn_cell *cell)
+/* Cells that flights join are looked at together, at the lowest, if the form asks for ways. */
+static bool is_wanted(const tn_fits *fits, const tn_house *house, uint32_t index)
 {
-    return !cell->open && cell->function != TN_NO_FUNCTION && fits->wanted[cell->function];
+    const tn_cell *cell = &house->cells[index];
+    bool ways = tn_form_asks_ways(house->form);
+    return !cell->open && cell->function != TN_NO_FUNCTION && (ways || fits->wanted[cell->function]) &&
+           !(ways && tn_flight_below(house, index));
 }
 
 /* ---- what the tiles of a cell depend on */
 
-enum { CELL_WORDS = 2 + 2 * 2, FACE_WORDS = 1 + 4 * 2 };
+enum { CELL_WORDS = 2 + 2 * 2, FACE_WORDS = 1 + 4 * 2 + 1 + 4 * 2 };
 
 static uint32_t *add_long(uint32_t *word, int64_t value)
 {
@@ -117,31 +122,71 @@ static bool is_near(const tn_face *face, const tn_cell *cell)
            face->at.x1 >= cell->at.x0 && face->at.y0 <= cell->at.y1 && face->at.y1 >= cell->at.y0;
 }
 
-static bool make_key(tn_key *key, const tn_house *house, uint32_t index)
+/* What is beyond a face of the cell, if the form asks for ways; of a bare cell, where its floor is. */
+static uint32_t *add_view(uint32_t *word, const tn_house *house, uint32_t face, uint32_t index)
 {
     const tn_cell *cell = &house->cells[index];
-    if (!tn_array_reserve(&key->data, &key->capacity, 0, CELL_WORDS + house->face_count * FACE_WORDS,
-                          sizeof *key->data))
-        return false;
-    uint32_t *word = key->data;
+    if (house->faces[face].first != index && house->faces[face].second != index)
+        return word;
+    tn_face_view view = tn_face_seen(house, face, index);
+    *word++ = (uint32_t)view.beyond * 2 + view.leaf;
+    if (view.beyond != TN_BEYOND_BARE || house->faces[face].kind != TN_FACE_OPEN)
+        return word;
+    word = add_long(word, view.floor.x0 - cell->at.x0);
+    word = add_long(word, view.floor.x1 - cell->at.x0);
+    word = add_long(word, view.floor.y0 - cell->at.y0);
+    return add_long(word, view.floor.y1 - cell->at.y0);
+}
+
+/* Of one cell, behind what is there. */
+static uint32_t *add_cell(uint32_t *word, const tn_house *house, uint32_t index)
+{
+    const tn_cell *cell = &house->cells[index];
     *word++ = cell->function;
     *word++ = cell->storey;
     word = add_long(word, cell->at.x1 - cell->at.x0);
     word = add_long(word, cell->at.y1 - cell->at.y0);
-    for (size_t i = 0; i < house->face_count; i++)
-        if (is_near(&house->faces[i], cell))
-            word = add_face(word, &house->faces[i], cell, index);
-    key->size = (size_t)(word - key->data);
+    for (uint32_t i = 0; i < house->face_count; i++) {
+        if (!is_near(&house->faces[i], cell))
+            continue;
+        word = add_face(word, &house->faces[i], cell, index);
+        if (tn_form_asks_ways(house->form))
+            word = add_view(word, house, i, index);
+    }
+    return word;
+}
+
+/* A roof right above a cell may be in the way of people. */
+static uint32_t roof_over(const tn_house *house, uint32_t index)
+{
+    const tn_shape_record *shape = tn_house_shape(house, house->cells[index].zone, TN_CHOICE_ROOF);
+    return shape && tn_cell_is_top(house, index) ? (uint32_t)(shape - house->form->module->SHAPE_records) : UINT32_MAX;
+}
+
+/* The flight above a cell says which other cell goes with it. */
+static bool make_key(tn_key *key, const tn_house *house, uint32_t index)
+{
+    const tn_face *flight = NULL;
+    key->size = 0;
+    do {
+        if (!tn_array_reserve(&key->data, &key->capacity, key->size, CELL_WORDS + 2 + house->face_count * FACE_WORDS,
+                              sizeof *key->data))
+            return false;
+        uint32_t *word = add_cell(key->data + key->size, house, index);
+        if (tn_form_asks_ways(house->form)) {
+            flight = tn_flight_above(house, index);
+            *word++ = roof_over(house, index);
+            *word++ = flight ? flight->kind : 0;
+        }
+        key->size = (size_t)(word - key->data);
+        index++;
+    } while (flight);
     return true;
 }
 
 static tn_status find_count(const tn_house *house, uint32_t cell, size_t *count, tn_error *error)
 {
-    tn_variants tiles;
-    tn_status status = tn_tile_variants(house, cell, &tiles, error);
-    *count = tiles.count;
-    tn_variants_clear(&tiles);
-    return status;
+    return tn_cell_fillings(house, cell, count, error);
 }
 
 /* The faces of the house are all known. */
@@ -173,7 +218,7 @@ static tn_status count_tiles(tn_furnisher *f, bool *fit, tn_error *error)
         return tn_fail_memory(error);
     for (uint32_t i = 0; status == TN_OK && *fit && i < f->house->cell_count; i++) {
         f->tiles[i] = 1;
-        if (is_wanted(&f->fits, &f->house->cells[i]))
+        if (is_wanted(&f->fits, f->house, i))
             status = fits_count(&f->fits, f->house, i, &f->tiles[i], error);
         *fit = f->tiles[i] > 0;
     }

@@ -1,6 +1,7 @@
 /* Writes what a house is made of: everything as JSON, its rooms as a table, its parts with their costs as another. */
 #include "runtime/house/schedule/describe.h"
 #include "runtime/house/schedule/cost.h"
+#include "runtime/house/ways.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -108,11 +109,41 @@ static void put_options(const tn_house *house, const tn_face *face, tn_json *jso
     tn_json_list_end(json);
 }
 
-static void put_faces(const tn_house *house, tn_json *json)
+/* Where an opening begins and ends along its face, if it is not in the middle. */
+static void put_opening(const tn_house *house, const tn_face *face, tn_json *json)
+{
+    const tn_opening_record *opening = tn_form_opening(house->form, face->kind);
+    bool in_y = face->at.x0 == face->at.x1;
+    if (!opening || (in_y ? opening->near_y : opening->near_x) == TN_HOUSE_ANY_SIDE)
+        return;
+    int64_t from = tn_opening_begins(face, opening);
+    put_lengths(json, "opening", (const int64_t[]){from, from + opening->wide}, 2);
+}
+
+/* If the form asks for ways: which cell a leaf opens into; where one stands before a flight and behind it. */
+static tn_status put_ways(const tn_house *house, const tn_face *face, tn_json *json, tn_error *error)
+{
+    uint32_t leaf = face->relation == TN_FACE_UNDER ? TN_NO_CELL : tn_face_leaf(house, face);
+    tn_flight flight = {0};
+    tn_status status = TN_OK;
+    if (leaf != TN_NO_CELL)
+        tn_json_count(json, "leaf", leaf);
+    if (face->relation == TN_FACE_UNDER)
+        status = tn_flight_stand(house, face, &flight, error);
+    if (flight.tread_count > 0) {
+        put_rectangle(json, "foot", flight.foot);
+        put_rectangle(json, "head", flight.head);
+    }
+    tn_flight_clear(&flight);
+    return status;
+}
+
+static tn_status put_faces(const tn_house *house, tn_json *json, tn_error *error)
 {
     static const char *const sides[] = {"above", "back", "front", "left", "right"};
     tn_json_list(json, "faces");
-    for (size_t i = 0; i < house->face_count; i++) {
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < house->face_count; i++) {
         const tn_face *face = &house->faces[i];
         tn_json_object(json, NULL);
         tn_json_count(json, "id", i);
@@ -129,9 +160,13 @@ static void put_faces(const tn_house *house, tn_json *json)
         put_rectangle(json, "at", face->at);
         tn_json_string(json, "kind", tn_form_kind_text(house->form, face->kind));
         put_options(house, face, json);
+        put_opening(house, face, json);
+        if (tn_form_asks_ways(house->form))
+            status = put_ways(house, face, json, error);
         tn_json_object_end(json);
     }
     tn_json_list_end(json);
+    return status;
 }
 
 /* The areas of a room, to the planes and to the walls; voids do not count. */
@@ -269,13 +304,13 @@ static void put_parts(const tn_house *house, const tn_costs *costs, tn_json *jso
 }
 
 /* The whole, with the house's line and what it costs. */
-static void put_house(const tn_house *house, const tn_solids *solids, const char *line, const uint32_t *rooms,
-                      const tn_costs *costs, tn_json *json)
+static tn_status put_house(const tn_house *house, const tn_solids *solids, const char *line, const uint32_t *rooms,
+                           const tn_costs *costs, tn_json *json, tn_error *error)
 {
     tn_json_object(json, NULL);
     tn_json_string(json, "house", line);
     put_cells(house, json);
-    put_faces(house, json);
+    tn_status status = put_faces(house, json, error);
     put_rooms(house, rooms, json);
     put_solids(house, solids, json);
     put_roofs(solids, json);
@@ -284,6 +319,7 @@ static void put_house(const tn_house *house, const tn_solids *solids, const char
         put_money(json, "cost", costs->hundredths);
     tn_json_object_end(json);
     tn_json_end_line(json);
+    return status;
 }
 
 tn_status tn_house_describe(const tn_house *house, const tn_solids *solids, tn_buffer *out, tn_error *error)
@@ -300,7 +336,7 @@ tn_status tn_house_describe(const tn_house *house, const tn_solids *solids, tn_b
     if (status == TN_OK)
         status = tn_house_costs(house, solids, &costs, error);
     if (status == TN_OK)
-        put_house(house, solids, line.data, rooms, &costs, &json);
+        status = put_house(house, solids, line.data, rooms, &costs, &json, error);
     tn_costs_clear(&costs);
     free(rooms);
     free(line.data);

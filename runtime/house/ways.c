@@ -1,0 +1,324 @@
+/* What a person meets in a cell of a house, and why it does not fit. */
+#include "runtime/house/ways.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#define DOUBLE_LEAF_NM INT64_C(1219200000) /* 4': wider doors have two leaves */
+
+int64_t tn_cell_way(const tn_house *house, uint32_t cell)
+{
+    const tn_cell *c = &house->cells[cell];
+    int64_t own = c->open || c->function == TN_NO_FUNCTION ? 0 : tn_form_rule(house->form, c->function)->way;
+    return own > 0 ? own : house->form->record->way;
+}
+
+/* ---- what is beyond a face */
+
+tn_face_view tn_face_seen(const tn_house *house, uint32_t index, uint32_t cell)
+{
+    const tn_face *face = &house->faces[index];
+    if (house->views)
+        return house->views[index];
+    uint32_t other = face->first == cell ? face->second : face->first;
+    tn_face_view view = {.beyond = TN_BEYOND_OUTSIDE, .leaf = tn_face_leaf(house, face) == cell};
+    if (other == TN_NO_CELL)
+        return view;
+    const tn_cell *beyond = &house->cells[other];
+    bool bare = !beyond->open && beyond->function != TN_NO_FUNCTION && tn_form_is_bare(house->form, beyond->function);
+    view.beyond = beyond->open ? TN_BEYOND_VOID : bare ? TN_BEYOND_BARE : TN_BEYOND_FURNISHED;
+    view.floor = beyond->at;
+    return view;
+}
+
+/* ---- passages and leaves */
+
+static bool runs_in_x(tn_house_side side)
+{
+    return side == TN_HOUSE_BACK || side == TN_HOUSE_FRONT;
+}
+
+/* Can a person go through what is in the face? Outside above the lowest storey nobody does. */
+static bool is_passage(const tn_house *house, const tn_face *face, const tn_face_view *view, int64_t way)
+{
+    const tn_opening_record *opening = tn_form_opening(house->form, face->kind);
+    int64_t x = face->at.x1 - face->at.x0, y = face->at.y1 - face->at.y0, length = x > y ? x : y;
+    bool outside = view->beyond == TN_BEYOND_OUTSIDE;
+    if (opening ? !(opening->flags & TN_PASSAGE) || opening->wide < way : face->kind != TN_FACE_OPEN || outside)
+        return false;
+    return length >= way + house->form->record->wall && view->beyond != TN_BEYOND_VOID &&
+           !(outside && face->storey > 0);
+}
+
+/* The clear rectangle's strip along a side, from one place to another, so deep. */
+static tn_rectangle along_side(const tn_rectangle *clear, tn_house_side side, int64_t from, int64_t to, int64_t deep)
+{
+    switch (side) {
+    case TN_HOUSE_BACK:
+        return (tn_rectangle){from, to, clear->y0, clear->y0 + deep};
+    case TN_HOUSE_FRONT:
+        return (tn_rectangle){from, to, clear->y1 - deep, clear->y1};
+    case TN_HOUSE_LEFT:
+        return (tn_rectangle){clear->x0, clear->x0 + deep, from, to};
+    default:
+        return (tn_rectangle){clear->x1 - deep, clear->x1, from, to};
+    }
+}
+
+/* A bare cell's floor begins half a wall from its other sides, and at the face, or at the clear rectangle if that ends
+ * before the face. */
+static tn_rectangle floor_beyond(const tn_house *house, const tn_face *face, tn_house_side side,
+                                 const tn_rectangle *beyond, const tn_rectangle *clear)
+{
+    tn_rectangle floor = tn_rectangle_grown(beyond, -house->form->record->wall / 2);
+    switch (side) {
+    case TN_HOUSE_BACK:
+        floor.y1 = face->at.y0 > clear->y0 ? face->at.y0 : clear->y0;
+        break;
+    case TN_HOUSE_FRONT:
+        floor.y0 = face->at.y0 < clear->y1 ? face->at.y0 : clear->y1;
+        break;
+    case TN_HOUSE_LEFT:
+        floor.x1 = face->at.x0 > clear->x0 ? face->at.x0 : clear->x0;
+        break;
+    default:
+        floor.x0 = face->at.x0 < clear->x1 ? face->at.x0 : clear->x1;
+    }
+    return floor;
+}
+
+static void add_leaf(tn_cell_floor *floor, uint32_t index, tn_house_side side, int64_t from, int64_t wide)
+{
+    int64_t deep = wide <= DOUBLE_LEAF_NM ? wide : wide / 2;
+    floor->leaf_faces[floor->leaf_count] = index;
+    floor->leaves[floor->leaf_count++] = along_side(&floor->clear, side, from, from + wide, deep);
+}
+
+static void add_passage(const tn_house *house, uint32_t index, tn_house_side side, const tn_face_view *view,
+                        tn_cell_floor *floor)
+{
+    const tn_face *face = &house->faces[index];
+    const tn_opening_record *opening = tn_form_opening(house->form, face->kind);
+    bool in_x = runs_in_x(side), free = !opening && view->beyond == TN_BEYOND_BARE;
+    int64_t from = in_x ? face->at.x0 : face->at.y0, to = in_x ? face->at.x1 : face->at.y1;
+    int64_t half = house->form->record->wall / 2, begins = opening ? tn_opening_begins(face, opening) : from,
+            ends = opening ? begins + opening->wide : to, middle = tn_opening_from(begins + ends, floor->way);
+    tn_passage passage = {side, opening ? TN_PASSAGE_DOOR : TN_PASSAGE_OPEN, middle, middle + floor->way};
+    if (free) {
+        passage.from = from + half;
+        passage.to = to - half;
+        floor->open_sides[floor->open_count++] =
+            (tn_open_side){floor->passage_count, floor_beyond(house, face, side, &view->floor, &floor->clear)};
+    }
+    floor->passage_faces[floor->passage_count] = index;
+    floor->passages[floor->passage_count++] = passage;
+    if (view->leaf)
+        add_leaf(floor, index, side, begins, opening->wide);
+}
+
+/* ---- obstacles */
+
+/* What stands in the clear rectangle; walls around it do not. */
+static tn_status add_obstacle(tn_cell_floor *floor, tn_rectangle r, tn_error *error)
+{
+    return tn_rectangles_meet(&r, &floor->clear) ? tn_rectangles_add(&floor->obstacles, r, error) : TN_OK;
+}
+
+static tn_status add_posts(const tn_house *house, uint32_t cell, tn_cell_floor *floor, tn_error *error)
+{
+    const tn_cell *c = &house->cells[cell];
+    tn_posts posts;
+    tn_status status = tn_house_posts(house, c->storey, &c->at, &posts, error);
+    for (size_t i = 0; status == TN_OK && i < posts.count; i++)
+        if (posts.items[i].thick_x && posts.items[i].thick_y)
+            status = add_obstacle(floor, tn_post_at(&posts.items[i]), error);
+    free(posts.items);
+    return status;
+}
+
+/* Is the underside of a roof lower than the headroom at a place across its ridge? */
+static bool is_low(const tn_profile *profile, tn_int128 y, int64_t base, int64_t headroom)
+{
+    tn_fraction height = tn_profile_height(profile, y, base);
+    return height.top < headroom * height.bottom;
+}
+
+/* The first place from `low` on, or (up) the last one before `high`, where that is not so; whole, rounded away from
+ * where one can stand. The line of a roof rises from its lower ends, so that one search finds it. */
+static int64_t end_of_low(const tn_profile *profile, int64_t low, int64_t high, bool up, int64_t base, int64_t headroom)
+{
+    while (high - low > 1) {
+        int64_t middle = low + (high - low) / 2;
+        bool is = is_low(profile, (tn_int128)middle * profile->y_bottom, base, headroom);
+        *(is == up ? &high : &low) = middle;
+    }
+    return up ? low : high;
+}
+
+/* The highest place of the roof over a stretch across the ridge. */
+static int64_t crest_of(const tn_profile *profile, int64_t from, int64_t to)
+{
+    size_t best = 0;
+    for (size_t i = 1; i < profile->count; i++)
+        if (profile->z[i] > profile->z[best])
+            best = i;
+    tn_int128 at = profile->y[best] / profile->y_bottom;
+    return at < from ? from : at > to ? to : (int64_t)at;
+}
+
+/* Under an open roof, the strips at its lower ends where nobody can stand upright. */
+static tn_status add_roof(const tn_house *house, uint32_t index, tn_cell_floor *floor, tn_error *error)
+{
+    const tn_cell *cell = &house->cells[index];
+    const tn_shape_record *shape = tn_house_shape(house, cell->zone, TN_CHOICE_ROOF);
+    int64_t height = house->form->level[cell->storey + 1] - house->form->level[cell->storey],
+            headroom = house->form->record->headroom;
+    if (!shape || !(shape->flags & TN_ROOF_OPEN) || height >= headroom || !tn_cell_is_top(house, index))
+        return TN_OK;
+    tn_profile profile = tn_roof_profile(house, cell);
+    bool across = shape->flags & TN_ROOF_ACROSS;
+    tn_rectangle low = floor->clear, high = floor->clear;
+    int64_t from = across ? low.x0 : low.y0, to = across ? low.x1 : low.y1, crest = crest_of(&profile, from, to);
+    if (is_low(&profile, (tn_int128)crest * profile.y_bottom, height, headroom))
+        return add_obstacle(floor, floor->clear, error);
+    bool before = is_low(&profile, (tn_int128)from * profile.y_bottom, height, headroom),
+         behind = is_low(&profile, (tn_int128)to * profile.y_bottom, height, headroom);
+    *(across ? &low.x1 : &low.y1) = before ? end_of_low(&profile, from, crest, false, height, headroom) : from;
+    *(across ? &high.x0 : &high.y0) = behind ? end_of_low(&profile, crest, to, true, height, headroom) : to;
+    tn_status status = before ? add_obstacle(floor, low, error) : TN_OK;
+    return status == TN_OK && behind ? add_obstacle(floor, high, error) : status;
+}
+
+/* ---- a cell */
+
+static tn_status make_room(const tn_house *house, uint32_t cell, tn_cell_floor *floor, tn_error *error)
+{
+    size_t count = 1;
+    for (size_t i = 0; i < house->face_count; i++)
+        count += house->faces[i].first == cell || house->faces[i].second == cell;
+    floor->passages = malloc(count * sizeof *floor->passages);
+    floor->passage_faces = malloc(count * sizeof *floor->passage_faces);
+    floor->leaves = malloc(count * sizeof *floor->leaves);
+    floor->leaf_faces = malloc(count * sizeof *floor->leaf_faces);
+    floor->open_sides = malloc(count * sizeof *floor->open_sides);
+    return floor->passages && floor->passage_faces && floor->leaves && floor->leaf_faces && floor->open_sides
+               ? TN_OK
+               : tn_fail_memory(error);
+}
+
+tn_status tn_cell_floor_find(const tn_house *house, uint32_t cell, tn_cell_floor *floor, tn_error *error)
+{
+    *floor = (tn_cell_floor){.way = tn_cell_way(house, cell), .clear = tn_cell_clear(house, cell)};
+    tn_status status = make_room(house, cell, floor, error);
+    for (uint32_t i = 0; status == TN_OK && i < house->face_count; i++) {
+        tn_house_side side = tn_face_side(&house->faces[i], cell);
+        if (side == TN_HOUSE_ANY_SIDE)
+            continue;
+        tn_face_view view = tn_face_seen(house, i, cell);
+        if (is_passage(house, &house->faces[i], &view, floor->way))
+            add_passage(house, i, side, &view, floor);
+    }
+    if (status == TN_OK)
+        status = add_posts(house, cell, floor, error);
+    return status == TN_OK ? add_roof(house, cell, floor, error) : status;
+}
+
+void tn_cell_floor_clear(tn_cell_floor *floor)
+{
+    free(floor->passages);
+    free(floor->passage_faces);
+    free(floor->leaves);
+    free(floor->leaf_faces);
+    free(floor->open_sides);
+    free(floor->obstacles.items);
+    *floor = (tn_cell_floor){0};
+}
+
+tn_floor tn_cell_floor_of(const tn_cell_floor *floor)
+{
+    return (tn_floor){.way = floor->way,
+                      .clear = floor->clear,
+                      .obstacles = floor->obstacles.items,
+                      .obstacle_count = floor->obstacles.count,
+                      .leaves = floor->leaves,
+                      .leaf_count = floor->leaf_count,
+                      .passages = floor->passages,
+                      .passage_count = floor->passage_count};
+}
+
+/* ---- what is wrong */
+
+tn_way_fault tn_way_fault_of(const tn_house *house, uint32_t cell, const tn_cell_floor *floor,
+                             const tn_floor_answer *answer)
+{
+    tn_way_fault fault = {.fault = answer->fault, .keep = answer->of};
+    if (answer->fault == TN_FLOOR_FITS || answer->fault == TN_FLOOR_KEEP)
+        return fault;
+    uint32_t index = (answer->fault == TN_FLOOR_LEAF ? floor->leaf_faces : floor->passage_faces)[answer->of];
+    fault.kind = house->faces[index].kind;
+    fault.side = tn_face_side(&house->faces[index], cell);
+    return fault;
+}
+
+tn_status tn_cell_ways(const tn_house *house, uint32_t cell, tn_way_fault *fault, tn_error *error)
+{
+    tn_cell_floor floor;
+    tn_floor_answer answer = {0};
+    *fault = (tn_way_fault){0};
+    if (!tn_form_asks_ways(house->form) || house->ways_unknown || house->cells[cell].open ||
+        tn_flight_below(house, cell))
+        return TN_OK;
+    if (tn_flight_above(house, cell)) {
+        const tn_face *flight = NULL;
+        bool fits = false;
+        tn_status status = tn_stack_fits(house, cell, &fits, &flight, error);
+        fault->flight = !fits;
+        fault->kind = flight ? flight->kind : 0;
+        return status;
+    }
+    tn_status status = tn_cell_floor_find(house, cell, &floor, error);
+    const tn_floor asked = tn_cell_floor_of(&floor);
+    if (status == TN_OK)
+        status = tn_floor_ask(&asked, &answer, error);
+    if (status == TN_OK)
+        *fault = tn_way_fault_of(house, cell, &floor, &answer);
+    tn_floor_answer_clear(&answer);
+    tn_cell_floor_clear(&floor);
+    return status;
+}
+
+static const char *const side_texts[] = {"", "at the back", "at the front", "at the left", "at the right"};
+
+void tn_way_fault_text(const tn_house_form *form, const tn_way_fault *fault, char *text, size_t size)
+{
+    char at[TN_NAME_MAX + 40];
+    if (fault->kind == TN_FACE_OPEN)
+        snprintf(at, sizeof at, "open side %s", side_texts[fault->side]);
+    else
+        snprintf(at, sizeof at, "`%s` %s", tn_form_kind_text(form, fault->kind), side_texts[fault->side]);
+    if (fault->flight)
+        snprintf(text, size, "with these walls and doors there is no place for `%s`",
+                 tn_form_kind_text(form, fault->kind));
+    else if (fault->fault == TN_FLOOR_SHUT)
+        snprintf(text, size, "nobody can come in by the %s", at);
+    else if (fault->fault == TN_FLOOR_APART)
+        snprintf(text, size, "no way leads through to the %s", at);
+    else if (fault->fault == TN_FLOOR_LEAF)
+        snprintf(text, size, "the leaf of the %s has no room", at);
+    else
+        snprintf(text, size, "no way leads to what is kept free");
+}
+
+tn_status tn_cell_fillings(const tn_house *house, uint32_t cell, size_t *count, tn_error *error)
+{
+    tn_variants tiles;
+    tn_way_fault fault;
+    tn_status status = tn_tile_variants(house, cell, &tiles, error);
+    *count = tiles.count;
+    if (status == TN_OK && !tiles.wanted) {
+        status = tn_cell_ways(house, cell, &fault, error);
+        *count = fault.fault == TN_FLOOR_FITS && !fault.flight;
+    }
+    tn_variants_clear(&tiles);
+    return status;
+}
