@@ -416,8 +416,18 @@ static void check_distance(tn_check *check, const tn_ast_expr *distance)
     tn_help(check->diagnostics, d, "write `by quantity(..., n >= 2)` or `by sum(..., w > 12')`");
 }
 
+static void check_idle_meaning(tn_check *check, const tn_ast_expr *expr)
+{
+    bool quiet = check->quiet;
+    check->quiet = true;
+    for (TN_EACH(tn_ast_expr, part, expr->idle))
+        tn_check_meaning(check, part);
+    check->quiet = quiet;
+}
+
 void tn_check_meaning(tn_check *check, tn_ast_expr *expr)
 {
+    check_idle_meaning(check, expr);
     if (expr->kind == TN_EXPR_NAME)
         check_same(check, expr);
     else if (expr->kind == TN_EXPR_SYMMETRIC)
@@ -527,6 +537,8 @@ static bool walk_whole(tn_check *check, const tn_ast_expr *expr, bool level)
     bool plan = expr->kind == TN_EXPR_MATCHES;
     bool through = level && (expr->kind == TN_EXPR_AND || expr->kind == TN_EXPR_OR || expr->kind == TN_EXPR_NOT ||
                              expr->kind == TN_EXPR_IMPLIES);
+    for (TN_EACH(const tn_ast_expr, part, expr->idle)) /* what a value of a param leaves out stands here, too */
+        walk_whole(check, part, level);
     for (TN_EACH(const tn_ast_expr, part, expr->parts)) {
         bool inside = walk_whole(check, part, plan || through);
         whole = whole || (inside && !plan);
@@ -561,6 +573,8 @@ static void walk_around(tn_check *check, const tn_ast_expr *expr, bool reached)
 {
     if (expr->region != TN_AST_STRETCH && !reached)
         report_around(check, expr);
+    for (TN_EACH(const tn_ast_expr, part, expr->idle)) /* what a value of a param leaves out stands here, too */
+        walk_around(check, part, reached);
     for (TN_EACH(const tn_ast_expr, part, expr->parts)) {
         bool second = expr->kind == TN_EXPR_WHERE && (const tn_ast_node *)part != expr->parts.first;
         walk_around(check, part, second || (reached && goes_through(expr->kind)));
