@@ -286,6 +286,19 @@ static void leave_out_illegal(tn_check *check, tn_checked_schema *schema, tn_che
     trays->count = kept ? kept : trays->count > 0;
 }
 
+/* The set without the trays that an item about a number leaves out: what a division comes to is no matter there. */
+static tn_tray_set of_numbers(tn_check *check, tn_checked_schema *schema, tn_ast_list items, tn_tray_set set)
+{
+    tn_tray_set one;
+    if (tn_choices_or(schema->choices, set.yes, set.no) == TN_CHOICE_ALL)
+        return set;
+    for (TN_EACH(const tn_ast_item, item, items))
+        if (!tn_is_sum_item(schema, item, true) && tn_is_sum_item(schema, item, false) &&
+            tn_check_sum_item(check, schema, item, &one))
+            set.no = tn_choices_or(schema->choices, set.no, one.no);
+    return set;
+}
+
 /* What the items say together: one specifier, or any of several, and what is asked of numbers besides. */
 static void set_spec(tn_check *check, tn_ast_expr *tray, tn_tray_set set, tn_ast_list written)
 {
@@ -293,7 +306,7 @@ static void set_spec(tn_check *check, tn_ast_expr *tray, tn_tray_set set, tn_ast
     tn_span span = tray->node.span;
     tn_checked_trays trays;
     narrow(schema, tray->spec, &set);
-    if (!tn_check_undivided(check, schema, set, span) ||
+    if (!tn_check_undivided(check, schema, of_numbers(check, schema, written, set), span) ||
         !tn_check_boxes(check, schema, set.yes, TN_TRAY_BOXES_MAX, span, &trays))
         return;
     leave_out_illegal(check, schema, &trays);

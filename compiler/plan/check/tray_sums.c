@@ -753,11 +753,13 @@ static bool read_comparison(sum_reader *r, tn_checked_schema *schema, tn_tray_se
         return false;
     if (r->word && r->word->kind == TN_WORD_RANGE)
         return read_within(r, schema, left, set);
-    if (!r->word || r->word->kind != TN_WORD_OPERATOR) {
+    bool equal = r->word && is_constant_word(r->word) && !r->word->node.next && left->kind == TN_EXPR_FIGURE &&
+                 is_number(schema, left->name->text); /* `load 3` */
+    if (!equal && (!r->word || r->word->kind != TN_WORD_OPERATOR)) {
         bad_sum(r, r->word ? r->word->node.span : r->span, "nothing is compared here");
         return false;
     }
-    tn_operator op = take(r)->op;
+    tn_operator op = equal ? TN_EQUAL : take(r)->op;
     tn_ast_expr *right = read_sum(r);
     if (!right)
         return false;
