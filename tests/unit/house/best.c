@@ -499,9 +499,9 @@ static uint32_t check_drawn(drawn_house d, uint32_t count, size_t houses_most)
     uint32_t libraries = 0;
     for (uint32_t i = 0; i < count; i++) {
         test_house made;
-        drawn_house_write(&d);
-        if (d.priced && d.ways)
-            continue; /* costs of flights that stand where ways are left do not add up tray by tray */
+        do /* costs of flights that stand where ways are left do not add up tray by tray */
+            drawn_house_write(&d);
+        while (d.priced && d.ways);
         test_house_compile(&made, d.text);
         uint32_t measures = (uint32_t)made.module->HOUSE_MEASURE_count + (uint32_t)made.module->MEASURE_count;
         uint32_t first = d.priced ? (uint32_t)made.module->HOUSE_MEASURE_count - 1 : i % measures; /* `fifth` */
@@ -522,7 +522,7 @@ static void test_drawn(void **state)
 static void test_costs(void **state)
 {
     (void)state;
-    assert_true(check_drawn((drawn_house){.state = 5, .priced = true}, (uint32_t)test_share(30), 5000) >
+    assert_true(check_drawn((drawn_house){.state = 5, .priced = true}, (uint32_t)test_share(30), 5000) >=
                 (uint32_t)test_share(9));
 }
 
