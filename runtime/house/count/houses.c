@@ -515,7 +515,8 @@ static tn_status recount_plans(recounting *r, tn_house_listing *listing, tn_erro
     tn_cursor *cursor = NULL;
     mpz_t from, to;
     mpz_inits(from, to, NULL);
-    tn_library_kept(h->plans, TN_ALL_LENGTHS, to);
+    if (!h->only) /* one plan needs no library */
+        tn_library_kept(h->plans, TN_ALL_LENGTHS, to);
     tn_status status = h->only ? tn_house_listing_each(listing, h->only, h->low, from, recount_house, r, error)
                                : tn_cursor_new(h->plans, from, to, &cursor, error);
     while (status == TN_OK && cursor && tn_cursor_next(cursor, &trays, &length))
