@@ -77,6 +77,17 @@ static void add_length(tn_check *check, tn_checked_field *field, int64_t length,
             (tn_checked_value){.name = spelling, .spelling = spelling, .measure = "", .span = span, .length = length};
 }
 
+/* Fields have lengths, and this measure has others: a rule can say what is asked of it. */
+static void report_other_unit(tn_check *check, const tn_checked_field *field, const tn_ast_word *measure)
+{
+    const tn_checked_name *name = tn_names_get(&check->names, measure->text);
+    const tn_ast_word *using = name && name->rule ? name->rule->ast->using : NULL;
+    tn_diagnostic *d = tn_report(check->diagnostics, E_PLAN_VALUES, measure->node.span,
+                                 "`%s` is no length, and only lengths can be a field's values", measure->text);
+    tn_help(check->diagnostics, d, "ask a rule instead: `rule large%s%s = %s >= 4` and `%s = rule large`",
+            using ? " using " : "", using ? using->text : "", measure->text, field->name);
+}
+
 void tn_check_said_values(tn_check *check, tn_checked_schema *schema, tn_checked_field *field)
 {
     const tn_census *census = tn_schema_census(schema);
@@ -86,10 +97,7 @@ void tn_check_said_values(tn_check *check, tn_checked_schema *schema, tn_checked
     if (!lengths)
         return;
     if (census->powers[column] != 1) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_PLAN_VALUES, ast->said_by->node.span,
-                                     "`%s` is no length, and only lengths can be a field's values", ast->said_by->text);
-        tn_help(check->diagnostics, d, "ask a rule instead: `rule many = %s >= 4` and `%s = rule many`",
-                ast->said_by->text, field->name);
+        report_other_unit(check, field, ast->said_by);
         schema->broken = true;
         return;
     }
