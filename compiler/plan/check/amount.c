@@ -242,10 +242,8 @@ static bool check_name(tn_check *check, const tn_checked_schema *schema, tn_ast_
         figure->place = true;
         return tn_check_detail(check, field, figure->detail);
     }
-    for (uint32_t n = 0; !field && n < schema->number_count; n++) {
-        if (strcmp(schema->numbers[n].name, name) != 0)
-            continue;
-        figure->number = &schema->numbers[n];
+    figure->number = field ? NULL : tn_schema_number(schema, name);
+    if (figure->number) {
         amount->power = figure->number->power;
         return !figure->number->broken;
     }

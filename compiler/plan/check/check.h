@@ -458,6 +458,8 @@ tn_checked_spec *tn_value_spec(tn_arena *arena, tn_checked_schema *schema, uint3
 
 /* ---- values.c: fields and values by name, and in words */
 uint32_t tn_field_find(const tn_checked_schema *schema, const char *name);
+/* The schema's `number` of that name; NULL: it has none. */
+tn_checked_number *tn_schema_number(const tn_checked_schema *schema, const char *name);
 bool tn_field_has(const tn_checked_field *field, const char *name); /* a choice's value or a zone's fill of that name */
 /* The one field that has the value; TN_NONE where none or several have: then reported, unless the schema is broken. */
 uint32_t tn_value_field(tn_check *check, const tn_checked_schema *schema, const tn_ast_word *word);

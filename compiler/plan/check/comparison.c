@@ -163,12 +163,8 @@ void tn_check_sum_condition(tn_check *check, tn_ast_expr *expr)
 
 static bool is_number(const tn_checked_schema *schema, const tn_ast_word *word)
 {
-    if (!word || word->kind != TN_WORD_NAME || tn_field_find(schema, word->text) != TN_NONE)
-        return false;
-    for (uint32_t n = 0; n < schema->number_count; n++)
-        if (strcmp(schema->numbers[n].name, word->text) == 0)
-            return true;
-    return false;
+    return word && word->kind == TN_WORD_NAME && tn_field_find(schema, word->text) == TN_NONE &&
+           tn_schema_number(schema, word->text);
 }
 
 static const tn_ast_word *after_nots(const tn_ast_list *words, bool *negated)

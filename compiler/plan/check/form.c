@@ -318,10 +318,7 @@ enum { FREE_NAMES = 4 };
 
 static bool is_taken(const tn_checked_schema *schema, const char *name)
 {
-    bool taken = tn_schema_says(schema, name);
-    for (uint32_t n = 0; n < schema->number_count; n++)
-        taken |= strcmp(schema->numbers[n].name, name) == 0;
-    return taken;
+    return tn_schema_says(schema, name) || tn_schema_number(schema, name);
 }
 
 /* The first of these names that nothing in the schema has; the last one where all are taken. */

@@ -230,13 +230,8 @@ tn_ast_expr *tn_counts_house(const tn_ast_expr *quantity)
 /* A field or a number of that name goes first. */
 bool tn_sums_cost(const tn_check *check, const tn_ast_expr *sum)
 {
-    if (sum->parts.first || !sum->name || sum->detail || !tn_word_is(sum->name, "cost") || !check->schema ||
-        tn_field_find(check->schema, "cost") != TN_NONE)
-        return false;
-    for (uint32_t n = 0; n < check->schema->number_count; n++)
-        if (strcmp(check->schema->numbers[n].name, "cost") == 0)
-            return false;
-    return true;
+    return !sum->parts.first && sum->name && !sum->detail && tn_word_is(sum->name, "cost") && check->schema &&
+           tn_field_find(check->schema, "cost") == TN_NONE && !tn_schema_number(check->schema, "cost");
 }
 
 void tn_check_cost(tn_check *check, tn_ast_expr *sum)

@@ -334,11 +334,9 @@ static bool help_word(tn_check *check, tn_diagnostic *d, const tn_checked_schema
     uint32_t field = tn_field_find(schema, word);
     const tn_checked_field *f = field == TN_NONE ? NULL : &schema->fields[field];
     const char *first = f && f->value_count ? f->values[0].name : "";
-    bool value = false, number = false;
+    bool value = false, number = tn_schema_number(schema, word) != NULL;
     for (uint32_t i = 0; i < schema->field_count; i++)
         value |= tn_field_has(&schema->fields[i], word);
-    for (uint32_t n = 0; n < schema->number_count; n++)
-        number |= strcmp(schema->numbers[n].name, word) == 0;
     if (number)
         tn_help(check->diagnostics, d, "`%s` is a number of a tray: `sum(%s)` adds it up, `tray(%s >= 2)` asks a tray",
                 word, word, word);
@@ -525,8 +523,7 @@ bool tn_check_new_word(tn_check *check, const tn_checked_schema *schema, const t
     bool field = schema && tn_field_find(schema, word->text) != TN_NONE;
     for (uint32_t f = 0; schema && f < schema->field_count; f++)
         field |= tn_field_has(&schema->fields[f], word->text);
-    for (uint32_t n = 0; schema && n < schema->number_count; n++)
-        field |= strcmp(schema->numbers[n].name, word->text) == 0;
+    field = field || (schema && tn_schema_number(schema, word->text));
     const tn_checked_name *name = tn_names_get(&check->names, word->text);
     if (!field && !name && !bound)
         return true;

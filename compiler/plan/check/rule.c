@@ -151,9 +151,7 @@ static void check_sum(tn_check *check, tn_ast_expr *sum)
 static bool is_field_sum(const tn_check *check, const tn_ast_expr *sum)
 {
     const tn_checked_schema *schema = check->schema;
-    bool number = false;
-    for (uint32_t n = 0; n < schema->number_count; n++)
-        number |= sum->name && strcmp(schema->numbers[n].name, sum->name->text) == 0;
+    bool number = sum->name && tn_schema_number(schema, sum->name->text);
     uint32_t field = sum->name ? tn_field_find(schema, sum->name->text) : TN_NONE;
     bool places = field != TN_NONE && schema->fields[field].ordered;
     return sum->figure->kind == TN_EXPR_FIGURE && !number && !places;

@@ -23,20 +23,12 @@ static bool is_constant_word(const tn_ast_word *word)
            word->kind == TN_WORD_AREA;
 }
 
-static bool is_number(const tn_checked_schema *schema, const char *name)
-{
-    for (uint32_t n = 0; n < schema->number_count; n++)
-        if (strcmp(schema->numbers[n].name, name) == 0)
-            return true;
-    return false;
-}
-
 /* Is the word a number that a tray has: a length, a depth, a place in an order, a `number`? */
 static bool is_figure(const tn_checked_schema *schema, const tn_ast_word *word)
 {
     uint32_t f = word->kind == TN_WORD_NAME ? tn_field_find(schema, word->text) : TN_NONE;
     if (f == TN_NONE)
-        return word->kind == TN_WORD_NAME && is_number(schema, word->text);
+        return word->kind == TN_WORD_NAME && tn_schema_number(schema, word->text);
     const tn_checked_field *field = &schema->fields[f];
     return field->kind == TN_FIELD_LENGTH || field->kind == TN_FIELD_ZONE || field->ordered;
 }
@@ -78,7 +70,7 @@ static bool compares_sums(const tn_checked_schema *schema, const tn_ast_alternat
     if (!left || left->kind == TN_WORD_OPERATOR)
         return false;
     uint32_t f = left->kind == TN_WORD_NAME ? tn_field_find(schema, left->text) : TN_NONE;
-    bool number = left->kind == TN_WORD_NAME && f == TN_NONE && is_number(schema, left->text);
+    bool number = left->kind == TN_WORD_NAME && f == TN_NONE && tn_schema_number(schema, left->text);
     if (number && !rule)
         return true;
     while (op && op->kind != TN_WORD_OPERATOR)
@@ -754,7 +746,7 @@ static bool read_comparison(sum_reader *r, tn_checked_schema *schema, tn_tray_se
     if (r->word && r->word->kind == TN_WORD_RANGE)
         return read_within(r, schema, left, set);
     bool equal = r->word && is_constant_word(r->word) && !r->word->node.next && left->kind == TN_EXPR_FIGURE &&
-                 is_number(schema, left->name->text); /* `load 3` */
+                 tn_schema_number(schema, left->name->text); /* `load 3` */
     if (!equal && (!r->word || r->word->kind != TN_WORD_OPERATOR)) {
         bad_sum(r, r->word ? r->word->node.span : r->span, "nothing is compared here");
         return false;

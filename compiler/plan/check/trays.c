@@ -274,9 +274,7 @@ static bool names_number(tn_check *check, const tn_checked_schema *schema, const
 {
     for (TN_EACH(const tn_ast_alternative, alternative, item->alternatives))
         for (TN_EACH(const tn_ast_word, word, alternative->words)) {
-            bool number = false;
-            for (uint32_t n = 0; word->kind == TN_WORD_NAME && n < schema->number_count; n++)
-                number |= strcmp(schema->numbers[n].name, word->text) == 0;
+            bool number = word->kind == TN_WORD_NAME && tn_schema_number(schema, word->text);
             if (number) {
                 tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_NUMBER, word->node.span,
                                              "which trays a number is of does not depend on another number");

@@ -16,6 +16,14 @@ uint32_t tn_field_find(const tn_checked_schema *schema, const char *name)
     return TN_NONE;
 }
 
+tn_checked_number *tn_schema_number(const tn_checked_schema *schema, const char *name)
+{
+    for (uint32_t i = 0; i < schema->number_count; i++)
+        if (strcmp(schema->numbers[i].name, name) == 0)
+            return &schema->numbers[i];
+    return NULL;
+}
+
 bool tn_field_has(const tn_checked_field *field, const char *name)
 {
     if (field->kind != TN_FIELD_CHOICE && field->kind != TN_FIELD_ZONE)
