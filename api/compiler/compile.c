@@ -223,8 +223,8 @@ tartan_status tn_api_open_study(const char *name, const char *text, size_t size,
                                : status;
 }
 
-tartan_status tn_api_open_file(const char *path, const tartan_compile_options *given, tn_opened *opened,
-                               tartan_error *error)
+tartan_status tn_api_open_file(const char *path, const tartan_compile_options *given, const tn_questions *asking,
+                               tn_opened *opened, tartan_error *error)
 {
     tartan_compile_options options;
     uint8_t *bytes;
@@ -236,7 +236,7 @@ tartan_status tn_api_open_file(const char *path, const tartan_compile_options *g
         return status;
     if (tn_file_read(path, TN_SOURCE_BYTES_MAX, &bytes, &size, &found) != TN_OK)
         return tn_api_fail(&found, error);
-    status = tn_api_open(path, (const char *)bytes, size, given, NULL, opened, error);
+    status = tn_api_open(path, (const char *)bytes, size, given, asking, opened, error);
     free(bytes);
     return status;
 }
@@ -265,7 +265,21 @@ tartan_status tartan_compile_file(const char *path, const tartan_compile_options
                                   tartan_error *error)
 {
     tn_opened opened;
-    return keep_module(tn_api_open_file(path, options, &opened, error), &opened, module, error);
+    return keep_module(tn_api_open_file(path, options, NULL, &opened, error), &opened, module, error);
+}
+
+tartan_status tartan_compile_where(const char *path, const char *text, size_t size,
+                                   const tartan_compile_options *options, const char *library,
+                                   const char *const *wheres, size_t count, tartan_module **module, tartan_error *error)
+{
+    tn_opened opened;
+    tartan_status status = check_texts(wheres, count, "array of requirements", "requirement", error);
+    if (status != TARTAN_OK)
+        return status;
+    const tn_questions asking = {.library = library, .wheres = wheres, .where_count = count};
+    status = text ? tn_api_open(path, text, size, options, &asking, &opened, error)
+                  : tn_api_open_file(path, options, &asking, &opened, error);
+    return keep_module(status, &opened, module, error);
 }
 
 /* ---- layout */

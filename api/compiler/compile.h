@@ -18,8 +18,8 @@ tartan_status tn_api_open(const char *path, const char *text, size_t size, const
 tartan_status tn_api_open_study(const char *name, const char *text, size_t size, const tartan_compile_options *options,
                                 const tn_input *used, tn_opened *opened, tartan_error *error);
 
-tartan_status tn_api_open_file(const char *path, const tartan_compile_options *options, tn_opened *opened,
-                               tartan_error *error);
+tartan_status tn_api_open_file(const char *path, const tartan_compile_options *options, const tn_questions *asking,
+                               tn_opened *opened, tartan_error *error);
 
 /* Everything that there is to say, to the caller's function (may be NULL). */
 void tn_api_report(tn_diagnostics *diagnostics, tartan_report *report, void *context);

@@ -332,6 +332,19 @@ bool tartan_plans_next(tartan_plans *plans, const uint32_t **trays, size_t *leng
     return true;
 }
 
+size_t tartan_plans_take(tartan_plans *plans, size_t most, uint32_t *trays, size_t capacity, size_t *ends)
+{
+    size_t longest = tn_library_max(plans->library), taken = 0, end = 0, length;
+    const uint32_t *plan;
+    while (taken < most && capacity - end >= longest && tartan_plans_next(plans, &plan, &length)) {
+        if (length)
+            memcpy(trays + end, plan, length * sizeof *trays);
+        end += length;
+        ends[taken++] = end;
+    }
+    return taken;
+}
+
 void tartan_plans_free(tartan_plans *plans)
 {
     if (!plans)

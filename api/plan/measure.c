@@ -1,8 +1,11 @@
 /* The C interface to measures: names, units, distributions, the best plans, fronts, open plans. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "api/plan/plan.h"
+#include "runtime/plan/match/match_lanes.h"
+#include "runtime/plan/match/vm.h"
 #include "runtime/plan/measure/amount.h"
 #include "runtime/plan/measure/best.h"
 #include "runtime/plan/measure/complete.h"
@@ -10,6 +13,7 @@
 #include "runtime/plan/measure/named.h"
 #include "runtime/plan/measure/pareto.h"
 #include "runtime/plan/measure/weighed.h"
+#include "runtime/plan/schema/sum.h"
 
 /* Wishes made ready: the library weighed by their measures. */
 typedef struct api_wishes {
@@ -66,6 +70,134 @@ static tartan_status api_amount(tn_amount_unit unit, const mpq_t value, char **t
     }
     *text = written.data;
     return TARTAN_OK;
+}
+
+/* ---- of single plans */
+
+/* A measure, asked of one plan after another by interpretation. */
+typedef struct api_measured {
+    const tartan_library *library;
+    uint32_t measure; /* of named.h */
+    tn_plan_vm *vm;
+} api_measured;
+
+static tartan_status api_measured_begin(const tartan_library *library, const char *name, api_measured *measured,
+                                        tartan_error *error)
+{
+    tn_error found;
+    *measured = (api_measured){.library = library};
+    tartan_status status = api_measure_find(library, name, &measured->measure, error);
+    if (status != TARTAN_OK)
+        return status;
+    return tn_plan_vm_new(library->schema, 0, &measured->vm, &found) == TN_OK ? TARTAN_OK : tn_api_fail(&found, error);
+}
+
+/* The value on a plan, in the measure's unit. */
+static tn_status api_measured_value(api_measured *measured, const uint32_t *trays, size_t length, mpq_t value,
+                                    bool *has, tn_error *error)
+{
+    const tn_schema *schema = measured->library->schema;
+    const tn_module *module = schema->module;
+    tn_status status = tn_api_trays(schema, trays, length, error);
+    if (status == TN_OK)
+        status = tn_plan_vm_plan(measured->vm, trays, length, error);
+    if (status == TN_OK && measured->measure == TN_PREFERENCE)
+        status =
+            tn_plan_vm_value(measured->vm, tn_preferred_sum(module, &module->LIBRARY_records[measured->library->index]),
+                             value, has, error);
+    else if (status == TN_OK)
+        status = tn_plan_vm_measure(measured->vm, measured->measure, value, has, error);
+    if (status == TN_OK)
+        tn_amount_convert(api_measure_unit(measured->library, measured->measure), value);
+    return status;
+}
+
+tartan_status tartan_measure_plan(const tartan_library *library, const char *measure, const uint32_t *trays,
+                                  size_t length, char **value, tartan_error *error)
+{
+    api_measured measured;
+    tn_error found;
+    bool has = false;
+    if (!value || (length && !trays))
+        return tn_api_missing(error, value ? "plan" : "place for a value");
+    tartan_status status = api_measured_begin(library, measure, &measured, error);
+    if (status != TARTAN_OK)
+        return status;
+    mpq_t number;
+    mpq_init(number);
+    if (api_measured_value(&measured, trays, length, number, &has, &found) != TN_OK)
+        status = tn_api_fail(&found, error);
+    char *text = status == TARTAN_OK && has ? mpq_get_str(NULL, 10, number) : NULL;
+    mpq_clear(number);
+    tn_plan_vm_free(measured.vm);
+    if (status == TARTAN_OK)
+        *value = text;
+    return status;
+}
+
+/* The double nearest to a number, the even one of two: GMP rounds towards 0. */
+static double api_nearest(const mpq_t number)
+{
+    double low = mpq_get_d(number), high = nextafter(low, mpq_sgn(number) < 0 ? -INFINITY : INFINITY);
+    mpq_t middle, above;
+    if (!isfinite(high))
+        return low;
+    mpq_inits(middle, above, NULL);
+    mpq_set_d(middle, low);
+    mpq_set_d(above, high);
+    mpq_add(middle, middle, above);
+    mpq_div_2exp(middle, middle, 1);
+    int past = mpq_cmp(number, middle) * (mpq_sgn(number) < 0 ? -1 : 1);
+    uint64_t bits;
+    memcpy(&bits, &low, sizeof bits);
+    mpq_clears(middle, above, NULL);
+    return past > 0 || (past == 0 && bits % 2) ? high : low;
+}
+
+static tn_status api_measure_each(api_measured *measured, const tn_plan_array *plans, tn_watch *watch, double *values,
+                                  tn_error *error)
+{
+    mpq_t number;
+    mpq_init(number);
+    size_t begin = 0;
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < plans->count; begin = plans->ends[i++]) {
+        bool has = false;
+        if (i % 256 == 0) {
+            tn_watch_tell(watch, (double)i, (double)plans->count);
+            if (tn_watch_check(watch, error) != TN_OK)
+                status = TN_STOPPED;
+        }
+        if (status == TN_OK)
+            status = api_measured_value(measured, plans->trays + begin, plans->ends[i] - begin, number, &has, error);
+        if (status == TN_OK)
+            values[i] = has ? api_nearest(number) : NAN;
+    }
+    mpq_clear(number);
+    return status;
+}
+
+tartan_status tartan_measure_plans(const tartan_library *library, const char *measure, const uint32_t *trays,
+                                   const size_t *ends, size_t count, const tartan_watch *given, double *values,
+                                   tartan_error *error)
+{
+    tn_watch watch;
+    api_measured measured;
+    tn_error found;
+    if (count && (!ends || !values))
+        return tn_api_missing(error, ends ? "room for values" : "array of ends");
+    tartan_status status = tn_api_plan_array(trays, ends, count, error);
+    if (status == TARTAN_OK)
+        status = tn_api_watch(given, &watch, error);
+    if (status == TARTAN_OK)
+        status = api_measured_begin(library, measure, &measured, error);
+    if (status != TARTAN_OK)
+        return status;
+    const tn_plan_array plans = {trays, 0, ends, count};
+    if (api_measure_each(&measured, &plans, &watch, values, &found) != TN_OK)
+        status = tn_api_fail(&found, error);
+    tn_plan_vm_free(measured.vm);
+    return status;
 }
 
 /* ---- wishes */

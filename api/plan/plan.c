@@ -1,4 +1,4 @@
-/* The C interface to schemas, plans as text, and matching rules. */
+/* The C interface to matching rules. */
 #include "api/plan/plan.h"
 
 #include <pthread.h>
@@ -9,7 +9,6 @@
 
 #include "runtime/base/crew.h"
 #include "runtime/plan/match/rules.h"
-#include "runtime/plan/text/text.h"
 
 /* ---- matching rules */
 
@@ -280,19 +279,27 @@ static tn_status match_shares(request *asked, unsigned threads, tn_error *error)
     return status;
 }
 
+tartan_status tn_api_plan_array(const uint32_t *trays, const size_t *ends, size_t count, tartan_error *error)
+{
+    for (size_t i = 1; i < count; i++)
+        if (ends[i] < ends[i - 1])
+            return tn_api_refuse(error, TARTAN_INVALID, "plan %zu ends before it begins", i + 1);
+    if (count && ends[count - 1] && !trays)
+        return tn_api_missing(error, "array of trays");
+    return TARTAN_OK;
+}
+
 static tartan_status match_plans(request *asked, unsigned threads, const tartan_watch *given, tartan_error *error)
 {
     tn_watch watch;
     tn_error found;
     if (!asked->rules || (asked->count && (!asked->ends || (!asked->bits && !asked->matches))))
         return tn_api_missing(error, asked->rules ? "room for results" : "rules object");
-    for (size_t i = 1; i < asked->count; i++)
-        if (asked->ends[i] < asked->ends[i - 1])
-            return tn_api_refuse(error, TARTAN_INVALID, "plan %zu ends before it begins", i + 1);
-    if (asked->count && asked->ends[asked->count - 1] && !asked->trays)
-        return tn_api_missing(error, "array of trays");
+    tartan_status status = tn_api_plan_array(asked->trays, asked->ends, asked->count, error);
+    if (status != TARTAN_OK)
+        return status;
     asked->watch = &watch;
-    tartan_status status = tn_api_watch(given, &watch, error);
+    status = tn_api_watch(given, &watch, error);
     if (status != TARTAN_OK)
         return status;
     return match_shares(asked, threads, &found) == TN_OK ? TARTAN_OK : tn_api_fail(&found, error);
@@ -310,69 +317,6 @@ tartan_status tartan_match_any(const tartan_rules *rules, const uint32_t *trays,
 {
     request asked = {.rules = rules, .trays = trays, .ends = ends, .count = count, .matches = matches};
     return match_plans(&asked, threads, watch, error);
-}
-
-/* ---- schemas, and to plans as text */
-
-const char *tartan_schema_name(const tartan_schema *schema)
-{
-    const tn_schema *s = tn_api_schema(schema);
-    return tn_text(s->module, s->record->name);
-}
-
-uint32_t tartan_schema_tray_count(const tartan_schema *schema)
-{
-    return tn_api_schema(schema)->tray_count;
-}
-
-tn_status tn_api_trays(const tn_schema *schema, const uint32_t *trays, size_t length, tn_error *error)
-{
-    for (size_t i = 0; i < length; i++)
-        if (trays[i] >= schema->tray_count)
-            return tn_fail(error, TN_INVALID, TN_CODE_NONE,
-                           "tray %zu of the plan has number %u, and schema `%s` has trays 0 to %u", i + 1,
-                           (unsigned)trays[i], tn_text(schema->module, schema->record->name),
-                           (unsigned)schema->tray_count - 1);
-    return TN_OK;
-}
-
-tartan_status tartan_plan_read(const tartan_schema *schema, const char *line, size_t size, uint32_t *trays,
-                               size_t capacity, size_t *length, tartan_error *error)
-{
-    if (!schema || (size && !line) || (capacity && !trays) || !length)
-        return tn_api_missing(error, !schema ? "schema" : "plan");
-    tn_plan plan = {0};
-    tn_error found;
-    tn_status status = tn_plan_parse_line(tn_api_schema(schema), line, size, capacity, &plan, &found);
-    if (status == TN_OK) {
-        if (plan.length)
-            memcpy(trays, plan.trays, plan.length * sizeof *trays);
-        *length = plan.length;
-    }
-    free(plan.trays);
-    if (status == TN_LIMIT)
-        tn_error_help(&found, "give it room for more than %zu trays", capacity);
-    return status == TN_OK ? TARTAN_OK : tn_api_fail(&found, error);
-}
-
-tartan_status tartan_plan_write(const tartan_schema *schema, const uint32_t *trays, size_t length, char **line,
-                                tartan_error *error)
-{
-    if (!schema || (length && !trays))
-        return tn_api_missing(error, !schema ? "schema" : "plan");
-    tn_error found;
-    if (tn_api_trays(tn_api_schema(schema), trays, length, &found) != TN_OK)
-        return tn_api_fail(&found, error);
-    tn_buffer text = {0};
-    /* The empty plan writes nothing, and is still a text. */
-    if (!tn_buffer_append(&text, "", 0) || !tn_plan_write_line(tn_api_schema(schema), trays, length, &text) ||
-        !text.data) {
-        free(text.data);
-        tn_fail_memory(&found);
-        return tn_api_fail(&found, error);
-    }
-    *line = text.data;
-    return TARTAN_OK;
 }
 
 /* ---- what objects are made over */

@@ -47,6 +47,9 @@ tartan_status tn_api_rules_find(const tn_module *module, const char *const *name
 /* Are these tray numbers of the schema? TN_INVALID where not. */
 tn_status tn_api_trays(const tn_schema *schema, const uint32_t *trays, size_t length, tn_error *error);
 
+/* Are these plans one behind the other, and are their trays there? */
+tartan_status tn_api_plan_array(const uint32_t *trays, const size_t *ends, size_t count, tartan_error *error);
+
 /* A number as a new decimal text. */
 tartan_status tn_api_decimal(const mpz_t number, char **text, tartan_error *error);
 

@@ -41,7 +41,7 @@ tartan_status tartan_source_open(const char *path, const char *text, size_t size
         return tn_api_memory(error);
     }
     tartan_status status = text ? tn_api_open(made->path, text, size, options, NULL, &made->opened, error)
-                                : tn_api_open_file(made->path, options, &made->opened, error);
+                                : tn_api_open_file(made->path, options, NULL, &made->opened, error);
     if (status != TARTAN_OK) {
         tartan_source_free(made);
         return status;

@@ -72,6 +72,14 @@ TARTAN_API tartan_status tartan_compile_text(const char *path, const char *text,
                                              const tartan_compile_options *options, tartan_module **module,
                                              tartan_error *error);
 
+/* The same of a .plan file, with further requirements of one of its libraries (NULL: its only one), each an expression
+ * as its clauses have them: what `tartan --where` asks. They are clauses `where@1` and so on of the module. text NULL:
+ * the file at `path`. */
+TARTAN_API tartan_status tartan_compile_where(const char *path, const char *text, size_t size,
+                                              const tartan_compile_options *options, const char *library,
+                                              const char *const *wheres, size_t count, tartan_module **module,
+                                              tartan_error *error);
+
 /* The standard library, as it was when this library was built: how many files it has, and what the one at an index,
  * from 0, is called, with its extension ("shapes.field"); NULL past the last. */
 TARTAN_API size_t tartan_stdlib_count(void);

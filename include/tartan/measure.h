@@ -17,6 +17,19 @@ extern "C" {
  * measure. */
 TARTAN_API const char *tartan_measure_unit(const tartan_library *library, const char *measure);
 
+/* ---- of single plans, also of those that the library does not keep */
+
+/* The value of the measure on a plan. *value is NULL if it has none: of nothing there is no greatest number, and
+ * nothing is divided by 0. */
+TARTAN_API tartan_status tartan_measure_plan(const tartan_library *library, const char *measure, const uint32_t *trays,
+                                             size_t length, char **value, tartan_error *error);
+
+/* The same of many plans, given as tartan_match_all takes them, into values[i], each rounded to the nearest double; not
+ * a number if a plan has none. `watch` (may be NULL) is told how many plans are measured. */
+TARTAN_API tartan_status tartan_measure_plans(const tartan_library *library, const char *measure, const uint32_t *trays,
+                                              const size_t *ends, size_t count, const tartan_watch *watch,
+                                              double *values, tartan_error *error);
+
 /* ---- how plans are spread */
 
 typedef struct tartan_distribution tartan_distribution;

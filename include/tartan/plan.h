@@ -20,6 +20,43 @@ typedef struct tartan_schema tartan_schema;
 TARTAN_API const char *tartan_schema_name(const tartan_schema *schema);
 TARTAN_API uint32_t tartan_schema_tray_count(const tartan_schema *schema);
 
+typedef enum tartan_field_kind {
+    TARTAN_FIELD_LENGTH, /* values are lengths */
+    TARTAN_FIELD_CHOICE, /* values are names */
+    TARTAN_FIELD_FLAG,   /* two values: unset, then set */
+    TARTAN_FIELD_ZONE    /* values are fills with a depth, or none */
+} tartan_field_kind;
+
+/* A field of its trays. Texts are the schema's. */
+typedef struct tartan_field {
+    size_t size;
+    const char *name, *doc; /* doc: "" if its author says nothing of it */
+    tartan_field_kind kind;
+    size_t value_count;
+} tartan_field;
+TARTAN_SIZED(tartan_field)
+
+/* A value that a field may have. */
+typedef struct tartan_value {
+    size_t size;
+    const char *name;     /* a length's spelling, a name, of a flag that is unset "-" */
+    const char *spelling; /* as plan lines have it: "dense:4'" */
+    const char *doc;
+    int64_t length; /* nanometres; of a zone its depth; 0 of others */
+} tartan_value;
+TARTAN_SIZED(tartan_value)
+
+/* Its fields, in file order: how many, and the i-th; and the i-th value of a field, both from 0. */
+TARTAN_API size_t tartan_schema_field_count(const tartan_schema *schema);
+TARTAN_API tartan_status tartan_schema_field(const tartan_schema *schema, size_t i, tartan_field *field,
+                                             tartan_error *error);
+TARTAN_API tartan_status tartan_schema_value(const tartan_schema *schema, size_t field, size_t i, tartan_value *value,
+                                             tartan_error *error);
+
+/* Which of its values each tray has in a field: fills tartan_schema_tray_count numbers, tray by tray. */
+TARTAN_API tartan_status tartan_schema_trays(const tartan_schema *schema, size_t field, uint32_t *values,
+                                             tartan_error *error);
+
 /* Reads a plan line (`12' double public - dense:4' open:12' empty | ...`; size bytes, no newline; blank is the plan of
  * no trays) into `trays`, which has room for `capacity`; a plan with more trays than that is TARTAN_LIMIT, and one that
  * cannot be read TARTAN_INVALID, with error.column. */
@@ -140,6 +177,12 @@ TARTAN_API tartan_status tartan_library_sample(const tartan_library *library, ui
 
 /* Steps to the next plan, which stays valid until the next step; false at the end. */
 TARTAN_API bool tartan_plans_next(tartan_plans *plans, const uint32_t **trays, size_t *length);
+
+/* Takes up to `most` plans at once: their trays one after another into `trays`, which has room for `capacity`, and into
+ * ends[i] where the i-th ends there, as tartan_match_all takes them. Returns how many these are: 0 at the end, and if
+ * the room is less than tartan_library_max_trays; fewer than `most` may be taken before the end, if the room is small.
+ */
+TARTAN_API size_t tartan_plans_take(tartan_plans *plans, size_t most, uint32_t *trays, size_t capacity, size_t *ends);
 TARTAN_API void tartan_plans_free(tartan_plans *plans);
 
 #ifdef __cplusplus

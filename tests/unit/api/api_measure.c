@@ -15,6 +15,8 @@ static const char text[] = "schema box { width = 1m | 2m  lid = flag }\n"
                            "library none using box { trays 1..1 require pair }\n"
                            "measure long = sum(width)\n"
                            "measure lids = quantity(tray(lid))\n"
+                           "measure third = sum(width) / 3m\n"
+                           "measure most = max(width)\n"
                            "measure half = sum(width) / 2 - 25%  * sum(width)\n";
 
 typedef struct setting {
@@ -79,6 +81,128 @@ static void statistic_is(const tartan_distribution *d, tartan_statistic which, c
     assert_int_equal(tartan_distribution_statistic(d, which, &value, NULL), TARTAN_OK);
     assert_string_equal(value, wanted);
     tartan_text_free(value);
+}
+
+/* Every third of a tray that follows another: values that no double has. */
+static void measures_plans(void **state)
+{
+    const setting *s = *state;
+    enum { ROOM = 6 };
+    tartan_plans *plans;
+    uint32_t trays[ROOM];
+    size_t ends[ROOM], taken, all = 0;
+    double values[ROOM];
+    tartan_error error;
+    char *kept;
+    assert_int_equal(tartan_library_plans(s->library, NULL, NULL, &plans, NULL), TARTAN_OK);
+    assert_int_equal(tartan_plans_take(plans, ROOM, trays, 2, ends), 0); /* a plan may have three trays */
+    while ((taken = tartan_plans_take(plans, ROOM, trays, ROOM, ends)) > 0) {
+        assert_true(taken <= ROOM && ends[taken - 1] <= ROOM);
+        assert_int_equal(tartan_measure_plans(s->library, "third", trays, ends, taken, NULL, values, &error),
+                         TARTAN_OK);
+        for (size_t i = 0, begin = 0; i < taken; begin = ends[i++]) {
+            char *said, *over;
+            unsigned third = metres(trays + begin, ends[i] - begin);
+            assert_true(values[i] == third / 3.0);
+            assert_int_equal(tartan_measure_plan(s->library, "third", trays + begin, ends[i] - begin, &said, NULL),
+                             TARTAN_OK);
+            over = strchr(said, '/');
+            assert_int_equal(strtoul(said, NULL, 10) * 3, third * (over ? strtoul(over + 1, NULL, 10) : 1));
+            tartan_text_free(said);
+        }
+        all += taken;
+    }
+    tartan_plans_free(plans);
+    assert_int_equal(tartan_library_count(s->library, TARTAN_ANY_LENGTH, &kept, NULL), TARTAN_OK);
+    assert_int_equal(strtoul(kept, NULL, 10), all);
+    tartan_text_free(kept);
+}
+
+static void measures_other_plans(void **state)
+{
+    const setting *s = *state;
+    const uint32_t lids_[] = {1, 1, 1}, wrong[] = {4}; /* the library drops the first; there is no tray 4 */
+    const size_t end = 3, ends[] = {3, 2};
+    double value[2];
+    static char before[] = "as it was";
+    char *said = before;
+    tartan_error error;
+    assert_int_equal(tartan_measure_plans(s->library, "lids", lids_, &end, 1, NULL, value, &error), TARTAN_OK);
+    assert_true(value[0] == 3);
+    assert_int_equal(tartan_measure_plans(s->library, "most", NULL, &(size_t){0}, 1, NULL, value, &error), TARTAN_OK);
+    assert_true(value[0] != value[0]);
+    assert_int_equal(tartan_measure_plan(s->library, "most", NULL, 0, &said, NULL), TARTAN_OK);
+    assert_null(said);
+    assert_int_equal(tartan_measure_plan(s->library, "lids", wrong, 1, &said, &error), TARTAN_INVALID);
+    assert_non_null(strstr(error.message, "number 4"));
+    assert_int_equal(tartan_measure_plan(s->library, "lid", lids_, 3, &said, &error), TARTAN_INVALID);
+    assert_non_null(strstr(error.help, "lids"));
+    assert_int_equal(tartan_measure_plan(NULL, "lids", lids_, 3, &said, NULL), TARTAN_INVALID);
+    assert_int_equal(tartan_measure_plan(s->library, "lids", NULL, 3, &said, NULL), TARTAN_INVALID);
+    assert_int_equal(tartan_measure_plans(s->library, "lids", lids_, ends, 2, NULL, value, NULL), TARTAN_INVALID);
+    assert_int_equal(tartan_measure_plans(s->library, "lids", NULL, &end, 1, NULL, value, NULL), TARTAN_INVALID);
+    assert_int_equal(tartan_measure_plans(s->library, "lids", lids_, &end, 1, NULL, NULL, NULL), TARTAN_INVALID);
+    assert_null(said);
+}
+
+static void tells_fields(void **state)
+{
+    const setting *s = *state;
+    const tartan_schema *schema = tartan_library_schema(s->library);
+    tartan_field field = tartan_field_init();
+    tartan_value value = tartan_value_init();
+    tartan_error error;
+    uint32_t widths[4];
+    assert_int_equal(tartan_schema_field_count(schema), 2);
+    assert_int_equal(tartan_schema_field(schema, 0, &field, NULL), TARTAN_OK);
+    assert_string_equal(field.name, "width");
+    assert_true(field.kind == TARTAN_FIELD_LENGTH && field.value_count == 2);
+    assert_int_equal(tartan_schema_field(schema, 1, &field, NULL), TARTAN_OK);
+    assert_true(field.kind == TARTAN_FIELD_FLAG);
+    assert_int_equal(tartan_schema_value(schema, 0, 1, &value, NULL), TARTAN_OK);
+    assert_string_equal(value.spelling, "2m");
+    assert_true(value.length == INT64_C(2000000000));
+    assert_int_equal(tartan_schema_value(schema, 1, 0, &value, NULL), TARTAN_OK);
+    assert_string_equal(value.name, "-");
+    assert_int_equal(tartan_schema_trays(schema, 0, widths, NULL), TARTAN_OK);
+    assert_true(widths[0] == 0 && widths[1] == 0 && widths[2] == 1 && widths[3] == 1);
+    assert_int_equal(tartan_schema_field(schema, 2, &field, &error), TARTAN_INVALID);
+    assert_int_equal(tartan_schema_value(schema, 0, 2, &value, &error), TARTAN_INVALID);
+    assert_non_null(strstr(error.message, "`width` has no value 2"));
+    assert_int_equal(tartan_schema_trays(schema, 2, widths, NULL), TARTAN_INVALID);
+    assert_int_equal(tartan_schema_trays(NULL, 0, widths, NULL), TARTAN_INVALID);
+}
+
+/* What is asked for besides is counted as if it stood in the library. */
+static void asks_for_more(void **state)
+{
+    const setting *s = *state;
+    const char *wheres[] = {"quantity(tray(lid), n = 1)"}, *wrong[] = {"quantity(tray(lit), n = 1)"};
+    tartan_module *module = NULL;
+    tartan_library *library;
+    tartan_library_options options = tartan_library_options_init();
+    tartan_error error;
+    char *count;
+    unsigned with = 0;
+    for (unsigned i = 1; i <= 6; i++)
+        with += plans_with(s, i, 1);
+    assert_int_equal(tartan_compile_where("box.plan", text, sizeof text - 1, NULL, "rows", wheres, 1, &module, &error),
+                     TARTAN_OK);
+    options.name = "rows";
+    assert_int_equal(tartan_library_open(module, &options, NULL, &library, &error), TARTAN_OK);
+    assert_int_equal(tartan_library_count(library, TARTAN_ANY_LENGTH, &count, NULL), TARTAN_OK);
+    assert_int_equal(strtoul(count, NULL, 10), with);
+    assert_string_equal(tartan_library_clause_name(library, 1), "where@1");
+    tartan_text_free(count);
+    tartan_library_free(library);
+    tartan_module_free(module);
+    module = NULL;
+    assert_int_equal(tartan_compile_where("box.plan", text, sizeof text - 1, NULL, "rows", wrong, 1, &module, &error),
+                     TARTAN_INVALID);
+    assert_non_null(strstr(error.message, "lit"));
+    assert_int_equal(tartan_compile_where("box.plan", text, sizeof text - 1, NULL, "rows", NULL, 1, &module, &error),
+                     TARTAN_INVALID);
+    assert_null(module);
 }
 
 static void spreads(void **state)
@@ -266,6 +390,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(spreads),        cmocka_unit_test(spreads_nothing),
                                        cmocka_unit_test(finds_the_best), cmocka_unit_test(finds_fronts),
-                                       cmocka_unit_test(completes),      cmocka_unit_test(draws_rules)};
+                                       cmocka_unit_test(completes),      cmocka_unit_test(draws_rules),
+                                       cmocka_unit_test(measures_plans), cmocka_unit_test(measures_other_plans),
+                                       cmocka_unit_test(tells_fields),   cmocka_unit_test(asks_for_more)};
     return cmocka_run_group_tests(tests, open_library, close_library);
 }

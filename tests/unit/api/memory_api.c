@@ -57,6 +57,16 @@ static tartan_status compile(const tartan_module *module, tartan_error *error)
     return status;
 }
 
+static tartan_status compile_where(const tartan_module *module, tartan_error *error)
+{
+    const char *const wheres[] = {"tray(lid)"};
+    tartan_module *made = NULL;
+    (void)module;
+    tartan_status status = tartan_compile_where("box.plan", text, sizeof text - 1, NULL, NULL, wheres, 1, &made, error);
+    tartan_module_free(made);
+    return status;
+}
+
 static tartan_status load(const tartan_module *module, tartan_error *error)
 {
     tartan_module *again = NULL;
@@ -265,7 +275,10 @@ static tartan_status measure(const tartan_module *module, tartan_error *error)
     const uint32_t *trays;
     size_t length;
     bool found;
+    double value;
     tartan_status status = tartan_library_open(module, NULL, NULL, &library, error);
+    if (status == TARTAN_OK)
+        status = tartan_measure_plans(library, "long", &(uint32_t){1}, &(size_t){1}, 1, NULL, &value, error);
     if (status == TARTAN_OK)
         status = tartan_distribution_new(library, "long", &distribution, error);
     if (status == TARTAN_OK)
@@ -294,10 +307,10 @@ static tartan_status measure(const tartan_module *module, tartan_error *error)
 
 static void fails_cleanly(void **state)
 {
-    static operation *const operations[] = {compile,      set_params,    cover_params, load,           ask_numbers,
-                                            ask_why,      ask_spellings, ask_lists,    ask_trade_offs, ask_edits,
-                                            ask_coverage, ask_text,      ask_kit,      ask_grammar,    ask_exports,
-                                            match,        walk,          measure};
+    static operation *const operations[] = {compile,     compile_where, set_params,    cover_params, load,
+                                            ask_numbers, ask_why,       ask_spellings, ask_lists,    ask_trade_offs,
+                                            ask_edits,   ask_coverage,  ask_text,      ask_kit,      ask_grammar,
+                                            ask_exports, match,         walk,          measure};
     for (size_t i = 0; i < sizeof operations / sizeof *operations; i++) {
         size_t failures = 0;
         for (int all_after = 0; all_after < 2; all_after++) {
