@@ -30,11 +30,11 @@ ASKED = {
         ("odd.plan", {}, ""), ("marked.plan", {}, ""), ("empty.plan", {}, ""), ("growing.bnf", {}, ""), ("growing.bnf", {"figures": True}, "--figures"),
         ("odd.plan", {"figures": True}, "--figures"), ("squashed.solid", {}, ""), ("squashed.solid", {"max_boxes": 1}, "--max-boxes 1"),
         ("divides.plan", {}, ""), ("tests/cli/files/relations.plan", {"max_states": 20, "threads": 1}, "--max-states 20 --threads 1"),
-        ("tests/cli/files/sheds.plan", {}, ""), ("tests/cli/files/huts.plan", {}, ""), ("stdlib/cottage.plan", {}, ""), ("stdlib/koch.hemls", {}, ""),
+        ("tests/cli/files/sheds.plan", {}, ""), ("tests/cli/files/huts.plan", {}, ""), ("tests/cli/files/cabins.plan", {}, ""), ("stdlib/koch.hemls", {}, ""),
         ("stdlib/bricks.kit", {}, ""), ("tests/cli/files/ball.field", {}, ""),
     ],
     "format": [(file, {}, "") for file in (
-        "odd.plan", "marked.plan", "wild.plan", "growing.bnf", "squashed.solid", "stdlib/cottage.plan", "stdlib/koch.hemls", "stdlib/bricks.kit",
+        "odd.plan", "marked.plan", "wild.plan", "growing.bnf", "squashed.solid", "tests/cli/files/cabins.plan", "stdlib/koch.hemls", "stdlib/bricks.kit",
         "tests/cli/files/ball.field", "tests/cli/files/sheds.plan")],
 }
 

@@ -21,9 +21,10 @@ from concurrent.futures import ThreadPoolExecutor
 TARTAN = os.path.abspath(sys.argv[1])
 SHARE = int(sys.argv[2]) if len(sys.argv) > 2 else 1
 SOURCE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+TEST_FILES = os.path.join(SOURCE, "tests/cli/files")
 failures = []
 
-# Command lines, without -o; the words are split at blanks. {} is a folder with the files below.
+# Command lines, without -o; the words are split at blanks. {} is a folder with the files below, {files} that of the other tests.
 COMMANDS = """
 build {}/own.plan
 disasm {}/own.plan
@@ -32,38 +33,38 @@ match {}/own.plan {}/some.plans
 prune {}/own.plan {}/some.plans
 count {}/own.plan
 count {}/own.plan --by floor
-count cottage --library cottages --by floor-area --plan #10
+count {files}/cabins.plan --library cottages --by floor-area --plan #10
 count bricks --parts 2
 complete {}/own.plan room|...
 complete {}/own.plan room|... --least floor
 enumerate {}/own.plan --limit 3
-enumerate cottage --library cottages --limit 3
+enumerate {files}/cabins.plan --library cottages --limit 3
 enumerate bricks --parts 2 --limit 3
 sample {}/own.plan 3
-sample cottage 3 --library cottages
+sample {files}/cabins.plan 3 --library cottages
 sample {}/own.plan 3 --shards 2
 best {}/own.plan 3 --most floor
-best cottage 3 --library cottages --plan #10 --most floor-area
+best {files}/cabins.plan 3 --library cottages --plan #10 --most floor-area
 pareto {}/own.plan --most floor --least floor
-pareto cottage --library cottages --plan #10 --most floor-area --least bedrooms
+pareto {files}/cabins.plan --library cottages --plan #10 --most floor-area --least bedrooms
 diff {}/own.plan {}/edited.plan
-diff cottage cottage --library cottages
+diff {files}/cabins.plan {files}/cabins.plan --library cottages
 explain {}/own.plan #0
 explain {}/own.plan --plan {}/some.plans
 explain {}/own.plan --plan {}/one.plans
-explain cottage #10:77
-explain cottage #10: --library cottages
-explain cottage #77 --library cottages
+explain {files}/cabins.plan #10:77
+explain {files}/cabins.plan #10: --library cottages
+explain {files}/cabins.plan #77 --library cottages
 explain {}/two.solid
 draw {}/own.plan
 draw {}/own.plan {}/some.plans
-draw cottage --library cottages --sample 2
+draw {files}/cabins.plan --library cottages --sample 2
 draw {}/ball.field
 draw {}/two.solid
 rule lahave stranded
 rule lahave stranded --edit remove --part 1
 report {}/own.plan --sample 2
-report cottage --library cottages --sample 2
+report {files}/cabins.plan --library cottages --sample 2
 report bricks --pictures 2
 mesh {}/ball.field
 mesh {}/two.solid
@@ -73,9 +74,9 @@ place {}/tower.kit
 place {}/row.pcfg
 inspect {}/tower.ldr --kit bricks
 grow square --steps 2
-house cottage #10:77
-house cottage #10:77 --view elevation:front
-vary cottage #10:77
+house {files}/cabins.plan #10:77
+house {files}/cabins.plan #10:77 --view elevation:front
+vary {files}/cabins.plan #10:77
 export {}/own.plan --prolog
 export {}/own.plan --regex --rule stores-together
 export {}/tower.kit --pcfg
@@ -308,7 +309,7 @@ def main():
         failures.append(f"commands that are not asked: {missing}")
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(2) as pool:
         prepare(folder)
-        commands = [line.replace("{}", folder).split() for line in lines]
+        commands = [line.replace("{}", folder).replace("{files}", TEST_FILES).split() for line in lines]
         endings = pool.map(lambda number: asked_of(number, commands[number], folder), range(len(commands)))
         asked = [(line, words, ending) for line, words, some in zip(lines, commands, endings) for ending in some]
         written = {}

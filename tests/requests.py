@@ -23,52 +23,52 @@ HOUSE = ("14'_room:14'_none_|_14'_room:14'_porch:5'_|_14'_room:14'_porch:5'_;_1_
 # The command line's question, and its words; _ is a blank in one of them.
 ASKED = {
     "count": [
-        "count cottage --library cottage-rows", "count lahave-houses", "count lahave-houses --mirror --no-effects --trays 4..5",
-        "count lahave-houses --by cost --trays 4..5", "count lahave-houses --by cost --trays 4..5 --bins 6", "count cottage --library cottages",
-        "count cottage --library cottages --clauses --plan #10", "count cottage --library cottages --plan #10 --by floor-area",
+        "count tests/cli/files/cabins.plan --library cottage-rows", "count lahave-houses", "count lahave-houses --mirror --no-effects --trays 4..5",
+        "count lahave-houses --by cost --trays 4..5", "count lahave-houses --by cost --trays 4..5 --bins 6", "count tests/cli/files/cabins.plan --library cottages",
+        "count tests/cli/files/cabins.plan --library cottages --clauses --plan #10", "count tests/cli/files/cabins.plan --library cottages --plan #10 --by floor-area",
         "count bricks --parts 2", "count bricks --parts 2 --fixed", "count lahave-houses --by cost --where trays=4 --where trays=5",
     ],
     "explain": [
         "explain terrace #1000", "explain terrace 4m_one_end_left_eaves_-_none --where trays=1", "explain terrace 4m_one_end_left_eaves_-_none --rule step",
-        "explain cottage #10", "explain cottage #10:3", "explain cottage #10: --library cottages", "explain table",
+        "explain tests/cli/files/cabins.plan #10", "explain tests/cli/files/cabins.plan #10:3", "explain tests/cli/files/cabins.plan #10: --library cottages", "explain table",
     ],
     "rank": [
         "rank terrace 4m_one_end_left_eaves_-_none_|_4m_one_mid_left_eaves_-_none_|_6m_one_mid_right_eaves_-_garden:2m_|_8m_one_mid_left_eaves_passage_"
-        "garden:4m_|_8m_one_end_right_eaves_-_none", f"rank cottage {HOUSE}", f"rank cottage {HOUSE} --of-all",
+        "garden:4m_|_8m_one_end_right_eaves_-_none", f"rank tests/cli/files/cabins.plan {HOUSE}", f"rank tests/cli/files/cabins.plan {HOUSE} --of-all",
     ],
-    "unrank": ["unrank terrace 1000", "unrank cottage #10:3", "unrank cottage 77 --library cottages", "unrank lahave-houses 0 --trays 4..4"],
+    "unrank": ["unrank terrace 1000", "unrank tests/cli/files/cabins.plan #10:3", "unrank tests/cli/files/cabins.plan 77 --library cottages", "unrank lahave-houses 0 --trays 4..4"],
     "settings": ["settings examples/market-hall/market.plan", "settings primitives", "settings bricks --used"],
     "rule_tree": ["rule lahave stranded", "rule terrace step", "rule examples/market-hall/market.plan near-gate"],
     "rule_edit": ["rule lahave stranded --edit wrap --part 3 --by not", "rule lahave stranded --edit wrap --part 30 --by not", "rule lahave lone --edit new"],
     "schema": ["schema terrace", "schema cottage", "schema lahave-houses --used", "schema row-houses"],
-    "pareto": ["pareto lahave-houses --trays 4..4 --least cost --most area", "pareto cottage --plan #3 --least floor-area --most bedrooms"],
+    "pareto": ["pareto lahave-houses --trays 4..4 --least cost --most area", "pareto tests/cli/files/cabins.plan --plan #3 --least floor-area --most bedrooms"],
     "complete": [
         "complete terrace ?_|_..._|_?", "complete terrace ?_|_?", "complete terrace ?_|_end", "complete lahave-houses ?_|_great_|_..._|_? --trays 4..4 --least cost",
-        "complete cottage ..._|_? --library cottages",
+        "complete tests/cli/files/cabins.plan ..._|_? --library cottages",
     ],
-    "diff": ["diff terrace terrace --trays 2..3 --no-measures", "diff lahave-houses lahave-houses --trays 3..4", "diff cottage cottage --library cottages"],
+    "diff": ["diff terrace terrace --trays 2..3 --no-measures", "diff lahave-houses lahave-houses --trays 3..4", "diff tests/cli/files/cabins.plan tests/cli/files/cabins.plan --library cottages"],
     "inspect": ["inspect examples/drawn-gate/gate.ldr --kit bricks", "inspect tests/cli/files/loose.ldr --kit bricks"],
-    "test": ["test terrace", "test terrace cottage --coverage", "test table", "check terrace --test --no-analysis"],
+    "test": ["test terrace", "test terrace tests/cli/files/cabins.plan --coverage", "test table", "check terrace --test --no-analysis"],
     "grow": ["grow square -n 2", "grow examples/growing-surfaces/draped.study -n 2"],
     "mesh": ["mesh table", "mesh table --cells", "mesh primitives --surface torus --grid 12 --sharp --bounds --thickness --times"],
     "runs": ["runs show RUN", "runs compare RUN RUN"],
     "evolve": ["evolve STUDY -o RUN --resume"],
     "individual": ["runs replay RUN 1", "runs replay RUN 50"],
-    "relations": ["check terrace --relations", "check cottage --relations --max-states 40", "check cottage --relations --examples --max-states 40"],
+    "relations": ["check terrace --relations", "check tests/cli/files/cabins.plan --relations --max-states 40", "check tests/cli/files/cabins.plan --relations --examples --max-states 40"],
 }
 # What commands that lack --json are asked for JSON with.
 JSON = {"mesh": ["--stats", "json"], "grow": ["--stats", "json"]}
 # Questions whose answers are lists: the command writes a line of JSON for each, which follows the type of a row.
 ROWS = {
-    "sample": [("found_plan", "sample terrace 3"), ("found_house", "sample cottage 2 --library cottages"), ("found_house", "sample cottage 2 --plan #10")],
-    "enumerate": [("found_building", "enumerate bricks --parts 2 --part 3001 --limit 3"), ("found_plan", "enumerate terrace --from 1000 --limit 3"), ("found_house", "enumerate cottage --library cottages --from 77 --limit 2")],
-    "match": [("matched_plan", "match terrace PLANS"), ("matched_plan", "match cottage HOUSES")],
+    "sample": [("found_plan", "sample terrace 3"), ("found_house", "sample tests/cli/files/cabins.plan 2 --library cottages"), ("found_house", "sample tests/cli/files/cabins.plan 2 --plan #10")],
+    "enumerate": [("found_building", "enumerate bricks --parts 2 --part 3001 --limit 3"), ("found_plan", "enumerate terrace --from 1000 --limit 3"), ("found_house", "enumerate tests/cli/files/cabins.plan --library cottages --from 77 --limit 2")],
+    "match": [("matched_plan", "match terrace PLANS"), ("matched_plan", "match tests/cli/files/cabins.plan HOUSES")],
     "prune": [("pruned_plan", "prune terrace PLANS --dropped -")],
     "map": [("mapped_genome", "map words --random 3 --codons 9"), ("mapped_system", "map genr8 --random 20")],
-    "vary": [("varied_house", "vary cottage #10:77"), ("varied_house", "vary row-houses #0:0")],
+    "vary": [("varied_house", "vary tests/cli/files/cabins.plan #10:77"), ("varied_house", "vary row-houses #0:0")],
     "best": [
         ("found_plan", "best lahave-houses 3 --trays 4..4 --least cost"), ("found_plan", "best lahave-houses 3 --trays 4..4 --least cost --then-most area"),
-        ("best_house", "best cottage 2 --library cottages --least floor-area"), ("best_house", "best cottage 2 --plan #3 --least floor-area --then-most bedrooms"),
+        ("best_house", "best tests/cli/files/cabins.plan 2 --library cottages --least floor-area"), ("best_house", "best tests/cli/files/cabins.plan 2 --plan #3 --least floor-area --then-most bedrooms"),
     ],
 }
 # What is a part of the answer to another question, or of no answer that a command writes as JSON (tests/cli/ask_genomes.sh); ask_files.py has
@@ -130,7 +130,7 @@ def main():
             said = answers(line, *JSON.get(question, ["--json"]))
             if said:
                 check(line, validator, json.loads(said))
-    given = {"PLANS": ("unrank", "terrace", "1000"), "HOUSES": ("unrank", "cottage", "#10:3")}
+    given = {"PLANS": ("unrank", "terrace", "1000"), "HOUSES": ("unrank", "tests/cli/files/cabins.plan", "#10:3")}
     for name, words in given.items():
         with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
             file.write(subprocess.run([tartan, *words], capture_output=True, text=True, check=True).stdout)

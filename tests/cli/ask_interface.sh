@@ -65,7 +65,7 @@ as '{"max_states": 3}' --max-states 3
 as '{"threads": 3}' --threads 3
 asked
 
-file=stdlib/cottage.plan
+file=tests/cli/files/cabins.plan
 as '{"library": "cottages"}' --library cottages
 as '{"library": "cottages", "clauses": true, "plan": "#10"}' --library cottages --clauses --plan '#10'
 as '{"library": "cottages", "plan": "#10", "by": "floor-area", "values": true}' --library cottages --plan '#10' --by floor-area
@@ -96,7 +96,7 @@ as '{"plan": "4m one | no"}' '4m one | no'
 as '{"plan": "#1000", "max_states": 3}' '#1000' --max-states 3
 asked
 
-file=stdlib/cottage.plan
+file=tests/cli/files/cabins.plan
 as '{"house": "#10:3"}' '#10:3'
 as '{"house": "#500", "library": "cottages"}' '#500' --library cottages
 as '{"house": "#500", "library": "cottages", "where": ["trays = 3"]}' '#500' --library cottages --where 'trays = 3'
@@ -115,7 +115,7 @@ as '{"plan": "[6m end | 4m | 4m | 6m end right]"}' '[6m end | 4m | 4m | 6m end r
 as '{"plan": "6m end | ... | end"}' '6m end | ... | end'
 as "{\"plan\": \"$plan\", \"of_all\": true}" "$plan" --of-all
 asked
-file=stdlib/cottage.plan
+file=tests/cli/files/cabins.plan
 house=$("$TARTAN" unrank "$file" '#10:77')
 as "{\"house\": \"$house\"}" "$house"
 as "{\"house\": \"$house\", \"of_all\": true}" "$house" --of-all
@@ -138,7 +138,7 @@ file=stdlib/terrace.plan
 as '{}'
 as '{"examples": true, "threads": 2}' --examples --threads 2
 asked
-file=stdlib/cottage.plan
+file=tests/cli/files/cabins.plan
 as '{"max_states": 40, "examples": true}' --max-states 40 --examples
 asked
 file=stdlib/bricks.kit
@@ -155,7 +155,7 @@ as_rows '{"count": 3, "where": ["trays = 2"]}' 3 --where 'trays = 2'
 as_rows '{"per_length": 2, "length": 2}' --per-length 2 --length 2
 as_rows '{"count": 2000, "diverse": true}' 2000 --diverse
 asked
-file=stdlib/cottage.plan
+file=tests/cli/files/cabins.plan
 as_rows '{"count": 3, "library": "cottages"}' 3 --library cottages
 as_rows '{"count": 3, "plan": "#10", "seed": 5}' 3 --plan '#10' --seed 5
 as_rows '{"count": 3, "plan": "#1000000"}' 3 --plan '#1000000'
@@ -171,7 +171,7 @@ as_rows '{"from": "1004", "to": "1000"}' --from 1004 --to 1000
 as_rows '{"from": "99999999999999999999"}' --from 99999999999999999999
 as_rows '{"mirror": true, "limit": 4, "where": ["trays = 3"]}' --mirror --limit 4 --where 'trays = 3'
 asked
-file=stdlib/cottage.plan
+file=tests/cli/files/cabins.plan
 as_rows '{"library": "cottages", "limit": 3}' --library cottages --limit 3
 as_rows '{"library": "cottages", "from": "1000000", "to": "1000002"}' --library cottages --from 1000000 --to 1000002
 as_rows '{"plan": "#10", "from": "5", "limit": 2}' --plan '#10' --from 5 --limit 2
@@ -184,7 +184,7 @@ as_rows '{"by": [{"measure": "cost"}], "trays": {"from": 4, "to": 4}}' --least c
 as_rows '{"by": [{"measure": "cost", "most": true}, {"measure": "area"}], "count": 4, "mirror": true, "trays": {"from": 4, "to": 4}}' 4 --most cost --then-least area --mirror --trays 4..4
 as_rows '{"by": [{"measure": "costs"}]}' --least costs
 asked
-file=stdlib/cottage.plan
+file=tests/cli/files/cabins.plan
 as_rows '{"by": [{"measure": "floor-area", "most": true}], "count": 2, "library": "cottages"}' 2 --most floor-area --library cottages
 as_rows '{"by": [{"measure": "floor-area"}, {"measure": "bedrooms"}], "count": 2, "plan": "#3"}' 2 --least floor-area --then-least bedrooms --plan '#3'
 as_rows '{"by": [{"measure": "floor-area"}], "plan": "#1000000"}' --least floor-area --plan '#1000000'
@@ -196,7 +196,7 @@ as '{"by": [{"measure": "cost"}, {"measure": "area", "most": true}], "trays": {"
 as '{"by": [{"measure": "cost"}], "trays": {"from": 4, "to": 5}}' --least cost --trays 4..5
 as '{"by": [{"measure": "cost"}, {"measure": "are"}]}' --least cost --least are
 asked
-file=stdlib/cottage.plan
+file=tests/cli/files/cabins.plan
 as '{"by": [{"measure": "floor-area"}, {"measure": "bedrooms", "most": true}], "plan": "#3"}' --least floor-area --most bedrooms --plan '#3'
 asked
 
@@ -213,7 +213,7 @@ file=stdlib/lahave-houses.plan
 as '{"pattern": "? | great | ... | ?", "trays": {"from": 4, "to": 4}, "by": [{"measure": "cost"}]}' '? | great | ... | ?' --trays 4..4 --least cost
 as '{"pattern": "? | great | ... | ?", "trays": {"from": 4, "to": 4}, "by": [{"measure": "cost", "most": true}]}' '? | great | ... | ?' --trays 4..4 --most cost
 asked
-file=stdlib/cottage.plan
+file=tests/cli/files/cabins.plan
 as '{"pattern": "... | ?", "library": "cottages"}' '... | ?' --library cottages
 asked
 
@@ -232,7 +232,7 @@ asked
 command=(diff "$files/none.plan")
 as "{\"before\": \"$files/none.plan\"}"
 asked
-command=(diff stdlib/cottage.plan) file=stdlib/cottage.plan library=cottages
+command=(diff tests/cli/files/cabins.plan) file=tests/cli/files/cabins.plan library=cottages
 as "{\"before\": \"$file\", \"library\": \"$library\"}" --library "$library"
 as "{\"before\": \"$file\", \"library\": \"$library\", \"max_houses\": 1, \"sample\": 0}" --library "$library" --max-houses 1 --sample 0
 asked
@@ -377,7 +377,7 @@ as_rows "{\"plans\": [\"$plan\", \"$short\"], \"where\": [\"trays = 4\"], \"tray
 as_rows "{\"plans\": [\"$plan\"], \"library\": \"streets\"}" "$scratch/plans" --library streets
 asked
 question=match command=(match)
-file=stdlib/cottage.plan
+file=tests/cli/files/cabins.plan
 printf '%s\n' "$house" >"$scratch/houses"
 as_rows "{\"plans\": [\"$house\"]}" "$scratch/houses"
 as_rows "{\"plans\": [\"$house\"], \"rules\": [\"dark-living\", \"narrow\"]}" "$scratch/houses" --rule dark-living --rule narrow
@@ -385,14 +385,14 @@ as_rows "{\"plans\": [\"$house\"], \"rules\": [\"dark-livin\"]}" "$scratch/house
 asked
 
 question=schema command=(schema)
-for file in stdlib/terrace.plan stdlib/cottage.plan stdlib/row-houses.plan stdlib/koch.hemls; do
+for file in stdlib/terrace.plan tests/cli/files/cabins.plan stdlib/row-houses.plan stdlib/koch.hemls; do
     as '{}'
     as '{"used": true}' --used
     asked
 done
 
 question=vary command=(vary)
-file=stdlib/cottage.plan
+file=tests/cli/files/cabins.plan
 as_rows '{"house": "#10:77"}' '#10:77'
 as_rows '{"house": "#10:77", "at": "1.body.ground"}' '#10:77' --at 1.body.ground
 as_rows '{"house": "#10:77", "at": "1.body.grund"}' '#10:77' --at 1.body.grund
@@ -486,7 +486,7 @@ wrong '[]' 'the request is no JSON object: it is another value'
 is 'no rank' "$("$program" stdlib stdlib/terrace.plan unrank '{}')" 'error an unrank_request needs `rank`: a whole number from 0; of houses also the name of one, such as #10:3'
 is 'no plan' "$("$program" stdlib stdlib/terrace.plan rank '{}')" "error say whose number is asked for: a plan's or a house's"
 wrong_to_explain() { # REQUEST MESSAGE
-    is "$1" "$("$program" stdlib stdlib/cottage.plan explain "$1")" "error $2"
+    is "$1" "$("$program" stdlib tests/cli/files/cabins.plan explain "$1")" "error $2"
 }
 wrong_to_explain '{}' 'say which plan or which house is explained: one of them'
 wrong_to_explain '{"plan": "#1", "house": "#1:1"}' 'say which plan or which house is explained: one of them'

@@ -26,15 +26,15 @@ golden open_plan_json "tartan complete house-measures.plan -l cottages \"10'\" -
 golden open_plan_cells 'tartan complete house-measures.plan -l cottages "cell(bedroom) | ..." 2>&1 | grep -v "  note: "'
 
 # The best that differ as people see it: on other plans, then in other sections, functions, faces, tiles.
-golden best_diverse 'tartan best cottage 4 -l cottages --least floor-area --diverse'
-golden best_diverse_on_plan "tartan best cottage 7 --plan '#3' --least floor-area --diverse"
-golden best_diverse_json 'tartan best cottage 2 -l cottages --most bedrooms --diverse --format json'
-golden best_diverse_many 'tartan best cottage 501 -l cottages --least floor-area --diverse'
+golden best_diverse 'tartan best cabins.plan 4 -l cottages --least floor-area --diverse'
+golden best_diverse_on_plan "tartan best cabins.plan 7 --plan '#3' --least floor-area --diverse"
+golden best_diverse_json 'tartan best cabins.plan 2 -l cottages --most bedrooms --diverse --format json'
+golden best_diverse_many 'tartan best cabins.plan 501 -l cottages --least floor-area --diverse'
 golden best_diverse_of_plans 'tartan best lahave-houses 3 --least cost --diverse'
-is 'houses on other plans' "$("$TARTAN" best cottage 10 -l cottages --least floor-area --diverse | grep -v '^#' | cut -d ';' -f 1 | sort -u | wc -l)" 10
-is 'the best of those that differ is the best' "$("$TARTAN" best cottage 5 -l cottages --least floor-area --diverse | head -n 2)" \
-    "$("$TARTAN" best cottage 1 -l cottages --least floor-area)"
-is 'all houses differ' "$("$TARTAN" best cottage 500 --plan '#3' --least floor-area --diverse | grep -v '^#' | sort -u | wc -l)" 500
+is 'houses on other plans' "$("$TARTAN" best "$files/cabins.plan" 10 -l cottages --least floor-area --diverse | grep -v '^#' | cut -d ';' -f 1 | sort -u | wc -l)" 10
+is 'the best of those that differ is the best' "$("$TARTAN" best "$files/cabins.plan" 5 -l cottages --least floor-area --diverse | head -n 2)" \
+    "$("$TARTAN" best "$files/cabins.plan" 1 -l cottages --least floor-area)"
+is 'all houses differ' "$("$TARTAN" best "$files/cabins.plan" 500 --plan '#3' --least floor-area --diverse | grep -v '^#' | sort -u | wc -l)" 500
 
 golden values 'tartan test house-values.plan'
 
@@ -55,7 +55,7 @@ golden best_picture_of_0 "tartan best house-measures.plan 0 -l cottages --least 
 
 # What completes the plan is what is counted with the pattern as a requirement.
 is 'houses that complete a plan' \
-    "$("$TARTAN" complete cottage -l cottages "14' porch | ... | none" --json | python3 -c 'import json, sys; print(json.load(sys.stdin)["houses"])')" \
-    "$("$TARTAN" count cottage -l cottages --where "plan [14' porch | ... | none]" --json | python3 -c 'import json, sys; print(json.load(sys.stdin)["houses"])')"
+    "$("$TARTAN" complete "$files/cabins.plan" -l cottages "14' porch | ... | none" --json | python3 -c 'import json, sys; print(json.load(sys.stdin)["houses"])')" \
+    "$("$TARTAN" count "$files/cabins.plan" -l cottages --where "plan [14' porch | ... | none]" --json | python3 -c 'import json, sys; print(json.load(sys.stdin)["houses"])')"
 
 finish

@@ -8,7 +8,7 @@ cd "$scratch"
 
 # The cottages that `huts` are, with their form in the same file.
 {
-    cat "$stdlib/cottage.plan"
+    cat "$files/cabins.plan"
     sed -n '/^library hut-rows/,$p' "$files/huts.plan"
 } >old.plan
 sed 's/^  prune touch(cell(kitchen), cell(bedroom) by open)/&\n  prune room(bedroom, not by window) as dark-bed\n  prune cell(bedroom, 10'"'"') as small/' old.plan >more.plan

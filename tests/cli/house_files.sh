@@ -21,7 +21,7 @@ if printf '#include <ifcpp/reader/ReaderSTEP.h>\n' | c++ -std=c++17 -w -fsyntax-
     reader=("$scratch/ifc_read")
 fi
 made lahave-form "$walk" walk
-made cottage "$hut" hut
+made "$files/cabins.plan" "$hut" hut
 made lahave-form "$walk" again
 is 'the walk-through' "$($python "$here/../house_files.py" "$scratch/walk" "${reader[@]}")" fine
 climbed="22' rooms:14' well:7'6\" ; gable(9:12,eaves-1',across) flat ; living living living climb climb climb ; dogleg winding"
@@ -50,5 +50,5 @@ for operation in SINGLE_SWING_LEFT SINGLE_SWING_RIGHT DOUBLE_DOOR_SINGLE_SWING; 
 done
 cmp "$scratch/walk/house.ifc" "$scratch/again/house.ifc" || fail 'two models of one house differ'
 cmp "$scratch/walk/house.dxf" "$scratch/again/house.dxf" || fail 'two drawings of one house differ'
-is 'a wrong view leaves no drawing' "$("$TARTAN" house cottage "$hut" --view plan:attic -o "$scratch/none.dxf" 2>/dev/null || ls "$scratch/none.dxf" 2>&1 | wc -l)" 1
+is 'a wrong view leaves no drawing' "$("$TARTAN" house "$files/cabins.plan" "$hut" --view plan:attic -o "$scratch/none.dxf" 2>/dev/null || ls "$scratch/none.dxf" 2>&1 | wc -l)" 1
 finish

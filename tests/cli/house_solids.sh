@@ -38,7 +38,7 @@ done
 looked "$files/gallery.plan" "$("$TARTAN" sample "$files/gallery.plan" 1 --library inns --seed 2)" 'a gallery'
 
 # Gable ends are of the walls below; of the roof itself only slabs end upright.
-"$TARTAN" house cottage "14' room:14' none ; 1 gable(9:12) 1 flat ; living ; window window window" -o "$scratch/cottage.obj" 2>/dev/null || fail 'no cottage'
+"$TARTAN" house "$files/cabins.plan" "14' room:14' none ; 1 gable(9:12) 1 flat ; living ; window window window" -o "$scratch/cottage.obj" 2>/dev/null || fail 'no cottage'
 is 'gable ends' "$(python3 - "$scratch/cottage.obj" <<'PY'
 import collections, sys
 points, group, ends = [], None, collections.Counter()

@@ -42,7 +42,7 @@ for kit in "$here/../../examples/gatehouse/gatehouse.kit" "$here/../../examples/
     [ "$colours" -gt 1 ] || fail "$form has one colour"
 done
 
-"$TARTAN" house cottage "14' room:14' none ; 1 gable(9:12) 1 flat ; kitchen ; wall window wall wall ; counter.back" -o hut.obj -o hut.glb -o hut.ply
+"$TARTAN" house "$files/cabins.plan" "14' room:14' none ; 1 gable(9:12) 1 flat ; kitchen ; wall window wall wall ; counter.back" -o hut.obj -o hut.glb -o hut.ply
 alike 1 hut glb ply
 
 cp "$here/../../stdlib/square.hemls" sheet.hemls

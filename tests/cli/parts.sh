@@ -24,7 +24,7 @@ part() {
 for picture in sheet house surface tree histogram; do
     case $picture in
     sheet) words=(draw lahave-houses --sample 2 --seed 7) ;;
-    house) words=(house cottage "14' room:14' none ; 1 gable(9:12) 1 flat ; living ; window wall window") ;;
+    house) words=(house "$(dirname "$0")/files/cabins.plan" "14' room:14' none ; 1 gable(9:12) 1 flat ; living ; window wall window") ;;
     surface) words=(grow square -n 1) ;;
     tree) words=(map words --genome '1 2 3' --tree) ;;
     histogram) words=(count examples/hospital-ward/ward.plan -l short-strip --by capacity) ;;

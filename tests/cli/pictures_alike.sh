@@ -29,8 +29,8 @@ alike sheet 3 4 draw lahave-houses --sample 6 --seed 7 -o
 alike table 3 4 draw "$files/sheds.plan" --library sheds --sample 5 --seed 1 -o
 alike rule 8 5 draw lahave --rule stranded --rule thin-totem -o
 alike explanation 7 5 explain lahave-houses "$plan" --full -o
-alike dropped 9 5 explain cottage "14' room:14' none | 14' room:14' none ; 1 gable(9:12) 1 flat ; bedroom | bedroom ; wall wall wall wall wall wall" -o
-alike house 3 4 house cottage '#10:77' -o
+alike dropped 9 5 explain "$files/cabins.plan" "14' room:14' none | 14' room:14' none ; 1 gable(9:12) 1 flat ; bedroom | bedroom ; wall wall wall wall wall wall" -o
+alike house 3 4 house "$files/cabins.plan" '#10:77' -o
 alike histogram 4 4 count "$ward" -l short-strip --by capacity -o
 alike front 6 8 pareto "$ward" -l short-strip --most capacity --least floor -o
 alike open 8 5 complete "$ward" '3000mm beds | ? | station | ... | not store' -l short-strip --least floor -o

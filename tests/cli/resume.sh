@@ -34,7 +34,7 @@ done
 [ "$broken" -gt 0 ] || echo 'note: every run ended before it was killed'
 
 # Houses, too: also where the limit ended it, and not with another requirement.
-houses=("$TARTAN" enumerate cottage -l cottages --trays 2..3 --from 1000 --to 260000)
+houses=("$TARTAN" enumerate "$files/cabins.plan" -l cottages --trays 2..3 --from 1000 --to 260000)
 "${houses[@]}" -o "$scratch/whole.sqlite"
 contents "$scratch/whole.sqlite" >"$scratch/whole"
 rm -f "$scratch/part.sqlite"*

@@ -291,7 +291,7 @@ golden two_sizes "tartan shards new sheds.plan -l sheds -o $scratch/x --plans 3 
 golden no_folder 'tartan shards new sheds.plan -l sheds --shards 2'
 golden database "tartan shards new sheds.plan -l sheds --shards 2 --format sqlite -o $scratch/x"
 golden backwards_ranks "tartan shards new sheds.plan -l sheds --shards 2 --from 5 --to 3 -o $scratch/x"
-golden houses "tartan shards new cottage -l cottages --shards 2 -o $scratch/x"
+golden houses "tartan shards new cabins.plan -l cottages --shards 2 -o $scratch/x"
 golden not_there "tartan shards new none.plan --shards 2 -o $scratch/x"
 golden unwritable "tartan shards new sheds.plan -l sheds --shards 2 -o $scratch/none/x"
 golden unknown "tartan shards chek $scratch/right"

@@ -130,7 +130,7 @@ golden format_pruned "tartan shards new sheds.plan --task prune -l sheds --shard
 golden format_plans "tartan shards new sheds.plan -l sheds --shards 2 -o $scratch/x --format bits"
 golden on_error "tartan shards new sheds.plan -l sheds --shards 2 -o $scratch/x --on-error skip"
 golden no_rule "tartan shards new sheds.plan --task match --rule narow --shards 2 -o $scratch/x -i $scratch/plans.lines"
-golden houses "tartan shards new cottage --task match --shards 2 -o $scratch/x -i $scratch/plans.lines"
+golden houses "tartan shards new cabins.plan --task match --shards 2 -o $scratch/x -i $scratch/plans.lines"
 new set match -i "$scratch/plans.lines" --shards 2 --format json
 run set
 golden merge "tartan shards merge $scratch/set -o $scratch/x.sqlite"

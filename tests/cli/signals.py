@@ -45,7 +45,7 @@ COMMANDS = [
     ("mesh", ["mesh", "primitives", "--surface", "torus", "--grid", "200", "-o", "@/torus.obj"], "torus.obj"),
     ("mesh, smoothed", ["mesh", "primitives", "--surface", "torus", "--grid", "60", "--subdivide", "1", "--smooth", "3",
                         "--decimate", "1000", "-o", "@/torus.stl"], "torus.stl"),
-    ("house", ["house", "cottage", "14' room:14' none ; 1 gable(9:12) 1 flat ; living ; wall window wall",
+    ("house", ["house", f"{files}/cabins.plan", "14' room:14' none ; 1 gable(9:12) 1 flat ; living ; wall window wall",
                "-o", "@/house.obj"], "house.obj"),
     ("place", ["place", "cells.pcfg", "-o", "@/cells.ldr"], "cells.ldr"),
     ("export", ["export", LIBRARY, "--prolog"], None),

@@ -21,7 +21,7 @@ done
 bays="14' room:14' porch:5' | 14' room:14' none"
 for command in 'count --library cottages' 'enumerate --library cottages' 'sample 2 --library cottages' 'best 2 --library cottages --least floor-area'; do
     read -r verb option <<<"$command"
-    [ "$("$TARTAN" "$verb" cottage $option --plan "[14' | 14' porch none]")" = "$("$TARTAN" "$verb" cottage $option --plan "$bays")" ] ||
+    [ "$("$TARTAN" "$verb" "$files/cabins.plan" $option --plan "[14' | 14' porch none]")" = "$("$TARTAN" "$verb" "$files/cabins.plan" $option --plan "$bays")" ] ||
         fail "$command does not take a plan in brackets"
 done
 

@@ -20,7 +20,7 @@ golden json 'tartan sample grown.plan 2 --library grown-rows --ways --seed 3 --f
 golden generated 'tartan enumerate grown.plan --library twin-rows --trays 3..3 --ways'
 golden packed 'tartan enumerate grown.plan --library grown-rows --ways -o $scratch/plans.bin'
 golden refused 'for o in "--by trays" --mirror --no-effects; do tartan count grown.plan --library grown-rows --ways $o; done'
-golden houses 'for c in "count cottage" "sample cottage 1" "enumerate cottage"; do tartan $c --library cottages --ways; done; tartan rank cottage "$(tartan unrank cottage "#10:77")" --ways'
+golden houses 'for c in "count cottage" "sample cottage 1" "enumerate cottage"; do tartan $c --library cottages --ways; done; tartan rank cabins.plan "$(tartan unrank cabins.plan "#10:77")" --ways'
 golden kits 'tartan count bricks --parts 2 --ways; tartan enumerate bricks --parts 2 --ways'
 golden shards 'tartan sample grown.plan 2 --library grown-rows --ways --shards 2 -o $scratch/set'
 

@@ -18,7 +18,7 @@ static void stop(const char *why)
     abort();
 }
 
-/* The form of the stdlib's cottages, compiled when it is first asked for. */
+/* A form of cottages without ways, compiled when it is first asked for. */
 static const tn_house_form *cottages(void)
 {
     static tn_compilation compilation;
@@ -27,10 +27,10 @@ static const tn_house_form *cottages(void)
     static tn_house_form form;
     if (schema)
         return &form;
-    if (compile_file(TARTAN_SOURCE_DIR "/stdlib/cottage.plan", &(library_folders){0}, &compilation) != TN_OK ||
+    if (compile_file(TARTAN_SOURCE_DIR "/tests/cli/files/cabins.plan", &(library_folders){0}, &compilation) != TN_OK ||
         tn_module_load(compilation.module, compilation.module_size, NULL, &module, NULL) != TN_OK ||
         tn_schema_new(module, module->FORM_records[0].schema, 0, &schema, NULL) != TN_OK)
-        stop("stdlib/cottage.plan does not compile");
+        stop("tests/cli/files/cabins.plan does not compile");
     tn_form_ready(module, 0, schema, &form);
     return &form;
 }

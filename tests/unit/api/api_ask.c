@@ -81,7 +81,7 @@ static void tells_notes(void **state)
     tartan_compile_options options = tartan_compile_options_init();
     options.folders = folders;
     options.folder_count = 1;
-    const char *path = TARTAN_SOURCE_DIR "/stdlib/cottage.plan";
+    const char *path = TARTAN_SOURCE_DIR "/tests/cli/files/cabins.plan";
     assert_int_equal(tartan_session_open(path, NULL, 0, &options, &session, &error), TARTAN_OK);
     const char *none = "{\"library\": \"cottages\", \"plan\": \"#10\", \"where\": [\"not cell()\"]}";
     assert_int_equal(tartan_ask(session, "count", none, NULL, count_notes, &notes, &answer, &error), TARTAN_OK);
