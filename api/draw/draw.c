@@ -3,12 +3,15 @@
 #include <stdlib.h>
 
 #include "api/genome/genome.h"
+#include "api/geometry/mesh.h"
 #include "api/growth/growth.h"
 #include "api/plan/plan.h"
 #include "runtime/genome/picture/tree_draw.h"
+#include "runtime/geometry/edges.h"
 #include "runtime/growth/picture/draw.h"
 #include "runtime/plan/picture/draw.h"
 #include "runtime/plan/picture/draw_rule.h"
+#include "runtime/scene/draw_mesh.h"
 
 /* Where a picture of this format goes. */
 static tartan_status begin(tartan_picture_format format, uint32_t dpi, const tartan_watch *given, tn_watch *watch,
@@ -162,6 +165,66 @@ tartan_status tartan_growth_draw(tartan_growth *growth, tartan_picture_format fo
         tn_view_free(view);
     }
     return finish(drawn, &found, &to, bytes, size, error);
+}
+
+/* ---- meshes */
+
+/* Has each edge of the triangles a second one? */
+static tn_status api_mesh_closed(const tn_mesh *mesh, bool *closed, tn_error *error)
+{
+    uint32_t *twins = tn_mesh_twins(mesh);
+    if (!twins)
+        return tn_fail_memory(error);
+    *closed = true;
+    for (size_t corner = 0; *closed && corner < 3 * mesh->face_count; corner++)
+        *closed = twins[corner] != TN_NO_TWIN;
+    free(twins);
+    return TN_OK;
+}
+
+static tn_status api_mesh_draw(const tn_mesh *mesh, tn_mesh_picture *picture, tn_picture *to, tn_error *error)
+{
+    tn_mesh triangles = {0};
+    double *normals = NULL;
+    bool closed = false;
+    tn_status status = tn_mesh_copy(mesh, &triangles, error);
+    triangles.watch = picture->watch;
+    if (status == TN_OK)
+        status = tn_mesh_triangulate(&triangles, error);
+    if (status == TN_OK)
+        status = tn_mesh_normals(&triangles, &normals, error);
+    if (status == TN_OK)
+        status = api_mesh_closed(&triangles, &closed, error);
+    picture->normals = normals;
+    picture->open = !closed;
+    if (status == TN_OK)
+        status = tn_mesh_draw(&triangles, picture, to, error);
+    free(normals);
+    tn_mesh_clear(&triangles);
+    return status;
+}
+
+tartan_status tartan_mesh_draw(const tartan_mesh *mesh, tartan_picture_format format,
+                               const tartan_growth_drawing *given, const tartan_watch *waiting, void **bytes,
+                               size_t *size, tartan_error *error)
+{
+    tartan_growth_drawing drawing;
+    tn_camera camera;
+    tn_watch watch;
+    tn_picture to;
+    tn_error found;
+    if (!mesh)
+        return tn_api_missing(error, "mesh");
+    tartan_status status = TN_API_TAKE(tartan_growth_drawing, &drawing, given, error);
+    if (status == TARTAN_OK)
+        status = begin(format, drawing.dpi, waiting, &watch, &to, bytes, size, error);
+    if (status == TARTAN_OK)
+        status = camera_of(&drawing, &camera, error);
+    if (status != TARTAN_OK)
+        return status;
+    tn_mesh_picture picture = {
+        .camera = camera, .title = drawing.title, .caption = drawing.caption, .dpi = drawing.dpi, .watch = &watch};
+    return finish(api_mesh_draw(&mesh->mesh, &picture, &to, &found), &found, &to, bytes, size, error);
 }
 
 /* ---- derivations */

@@ -13,6 +13,7 @@ tartan_status tn_api_mesh(tn_mesh *made, tartan_mesh **mesh, tartan_error *error
         return tn_api_memory(error);
     }
     *held = (tartan_mesh){.mesh = *made};
+    held->mesh.watch = NULL; /* whoever waited for its making waits no more */
     *mesh = held;
     return TARTAN_OK;
 }

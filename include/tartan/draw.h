@@ -37,6 +37,7 @@ TARTAN_API tartan_status tartan_plans_draw(const tartan_schema *schema, const ui
 TARTAN_API tartan_status tartan_rules_draw(const tartan_rules *rules, tartan_picture_format format,
                                            const tartan_watch *watch, void **bytes, size_t *size, tartan_error *error);
 
+/* Of surfaces that grow, and of meshes. */
 typedef struct tartan_growth_drawing {
     size_t size;
     const char *title;   /* or NULL */
@@ -54,6 +55,12 @@ TARTAN_SIZED(tartan_growth_drawing)
 TARTAN_API tartan_status tartan_growth_draw(tartan_growth *growth, tartan_picture_format format,
                                             const tartan_growth_drawing *drawing, const tartan_watch *watch,
                                             void **bytes, size_t *size, tartan_error *error);
+
+/* Draws a mesh, shaded, what is hidden left out; of one that is not closed both sides are seen. At most 300,000
+ * triangles, but for a PNG (TARTAN_LIMIT). `drawing` and `watch` may be NULL. */
+TARTAN_API tartan_status tartan_mesh_draw(const tartan_mesh *mesh, tartan_picture_format format,
+                                          const tartan_growth_drawing *drawing, const tartan_watch *watch, void **bytes,
+                                          size_t *size, tartan_error *error);
 
 /* Draws the derivation of the mapper's last tartan_map, which was to keep it; at most 4,000 nodes (TARTAN_LIMIT).
  * `watch` may be NULL. */

@@ -107,6 +107,84 @@ static double reach_in_glb(const char *unit)
     return reach;
 }
 
+static bool goes_on(void *context, double done, double total)
+{
+    (void)done;
+    (void)total;
+    ++*(unsigned *)context;
+    return true;
+}
+
+/* What functions left on the stack is there no more. */
+static void fill_stack(void)
+{
+    volatile unsigned char filled[1 << 16];
+    for (size_t i = 0; i < sizeof filled; i++)
+        filled[i] = 1;
+}
+
+/* Who waited for a mesh to be made is not asked when it is written, cut or drawn. */
+static void meshes_outlive_watches(void **state)
+{
+    (void)state;
+    unsigned asked = 0;
+    tartan_module *module = compile("ball.field", field_text);
+    tartan_field_options options = tartan_field_options_init();
+    tartan_watch *watch = malloc(sizeof *watch);
+    tartan_mesh *mesh = NULL;
+    tartan_error error;
+    assert_non_null(watch);
+    *watch = tartan_watch_init();
+    watch->go_on = goes_on;
+    watch->context = &asked;
+    options.surface = "ball";
+    assert_int_equal(tartan_field_mesh(module, &options, watch, &mesh, NULL, &error), TARTAN_OK);
+    memset(watch, 0x55, sizeof *watch);
+    free(watch);
+    fill_stack();
+    assert_true(asked > 0);
+    asked = 0;
+    for (int format = TARTAN_GLB; format <= TARTAN_STL; format++) {
+        void *bytes = NULL;
+        size_t size;
+        if (format == TARTAN_DXF)
+            continue;
+        if (tartan_mesh_write(mesh, (tartan_mesh_format)format, NULL, NULL, &bytes, &size, &error) != TARTAN_OK)
+            fail_msg("format %d: %s", format, error.message);
+        tartan_bytes_free(bytes);
+    }
+    assert_int_equal(asked, 0);
+    tartan_mesh_free(mesh);
+    tartan_module_free(module);
+}
+
+static void draws_meshes(void **state)
+{
+    (void)state;
+    static const double corners[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+    static const uint32_t first[] = {0, 4}, square[] = {0, 1, 2, 3};
+    tartan_growth_drawing drawing = tartan_growth_drawing_init();
+    tartan_mesh *mesh = NULL;
+    void *bytes = NULL;
+    size_t size = 0;
+    tartan_error error;
+    unsigned asked;
+    assert_int_equal(tartan_mesh_new(corners, 4, first, square, 1, &mesh, &error), TARTAN_OK);
+    drawing.title = "a square";
+    assert_int_equal(tartan_mesh_draw(mesh, TARTAN_SVG, &drawing, NULL, &bytes, &size, &error), TARTAN_OK);
+    assert_non_null(memmem(bytes, size, "a square", 8));
+    tartan_bytes_free(bytes);
+    drawing.camera = true;
+    drawing.elevation = 91;
+    assert_int_equal(tartan_mesh_draw(mesh, TARTAN_SVG, &drawing, NULL, &bytes, &size, &error), TARTAN_INVALID);
+    assert_int_equal(tartan_mesh_draw(NULL, TARTAN_SVG, NULL, NULL, &bytes, &size, &error), TARTAN_INVALID);
+    assert_int_equal(tartan_mesh_draw(mesh, (tartan_picture_format)9, NULL, NULL, &bytes, &size, &error),
+                     TARTAN_INVALID);
+    tartan_watch watch = refusing(&asked);
+    assert_int_equal(tartan_mesh_draw(mesh, TARTAN_SVG, NULL, &watch, &bytes, &size, &error), TARTAN_STOPPED);
+    tartan_mesh_free(mesh);
+}
+
 static void writes_metres(void **state)
 {
     (void)state;
@@ -359,7 +437,8 @@ static void files_and_pictures_can_be_stopped(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(meshes_a_ball),        cmocka_unit_test(writes_metres),
+        cmocka_unit_test(meshes_a_ball),        cmocka_unit_test(meshes_outlive_watches),
+        cmocka_unit_test(draws_meshes),         cmocka_unit_test(writes_metres),
         cmocka_unit_test(refuses_wrong_fields), cmocka_unit_test(meshes_are_read_by_the_callers_function),
         cmocka_unit_test(places_bricks),        cmocka_unit_test(refuses_wrong_placing),
         cmocka_unit_test(reads_a_run),          cmocka_unit_test(files_and_pictures_can_be_stopped),
