@@ -31,6 +31,7 @@ struct tartan_session {
     char *before_text;
     tartan_bytes_taker *take; /* or NULL */
     void *take_context;
+    tn_watch watch; /* whoever waits for the answer: what is kept between questions has its address */
 };
 
 /* ---- opened */
@@ -505,11 +506,10 @@ tartan_status tartan_ask(tartan_session *session, const char *question, const ch
 {
     asking a = {0};
     asked_file *file;
-    tn_watch watch;
     tn_error found;
     if (!session || !question || !answer)
         return tn_api_missing(error, !session ? "session" : !question ? "question" : "room for the answer");
-    tartan_status status = tn_api_watch(given, &watch, error);
+    tartan_status status = tn_api_watch(given, &session->watch, error);
     if (status != TARTAN_OK)
         return status;
     if (read_request(&a, question, request, &found) != TN_OK)
@@ -520,10 +520,11 @@ tartan_status tartan_ask(tartan_session *session, const char *question, const ch
     else if (status == TARTAN_OK)
         status = choose_file(session, library_of(a.kind->request, a.request), report, report_context, &file, error);
     if (status == TARTAN_OK)
-        status = ask(
-            file, &a,
-            &(answering){session, library_of(a.kind->request, a.request), &watch, report, report_context, error, false},
-            answer);
+        status = ask(file, &a,
+                     &(answering){session, library_of(a.kind->request, a.request), &session->watch, report,
+                                  report_context, error, false},
+                     answer);
     clear(&a);
+    tn_watch_begin(&session->watch, NULL, NULL); /* nobody waits any more */
     return status;
 }

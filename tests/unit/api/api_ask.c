@@ -70,6 +70,52 @@ static void count_notes(void *context, const tartan_diagnostic *diagnostic)
     *(size_t *)context += diagnostic->severity == TARTAN_NOTE;
 }
 
+/* Asks from a place on the stack that is so much deeper, whose numbers the next call finds there. */
+static tartan_status ask_deeper(tartan_session *session, const char *question, const char *request, size_t deeper,
+                                tartan_error *error)
+{
+    volatile unsigned char filled[4096];
+    char *answer = NULL;
+    for (size_t i = 0; i < sizeof filled; i++)
+        filled[i] = 1;
+    tartan_status status = deeper ? ask_deeper(session, question, request, deeper - 1, error)
+                                  : tartan_ask(session, question, request, NULL, NULL, NULL, &answer, error);
+    tartan_text_free(answer);
+    return status;
+}
+
+/* What is kept between two questions does not ask whoever waited for the first. */
+static void keeps_no_watch(void **state)
+{
+    (void)state;
+    static const char *const questions[] = {"count",  "sample",   "explain", "complete", "best",
+                                            "report", "coverage", "schema",  "settings"};
+    static const char *const requests[] = {"{}",
+                                           "{\"count\": 3}",
+                                           "{\"plan\": \"1m lid | 1m lid\"}",
+                                           "{\"pattern\": \"? | ...\"}",
+                                           "{\"by\": [{\"measure\": \"long\"}]}",
+                                           "{}",
+                                           "{}",
+                                           "{}",
+                                           "{}"};
+    static const char rules[] = "schema box { width = 1m | 2m  lid = flag }\n"
+                                "rule pair = neighbour(tray(lid), tray(lid))\nrule wide = tray(width 2m)\n"
+                                "measure long = sum(width)\n"
+                                "library rows using box { trays 1..3 prune pair require wide }\n";
+    enum { COUNT = sizeof questions / sizeof *questions };
+    for (size_t i = 0; i < (size_t)COUNT * COUNT; i++) {
+        const size_t pair[] = {i / COUNT, i % COUNT};
+        tartan_session *session = session_of(rules, NULL);
+        for (size_t k = 0; k < 2; k++) {
+            tartan_error error;
+            if (ask_deeper(session, questions[pair[k]], requests[pair[k]], 3 - 2 * k, &error) != TARTAN_OK)
+                fail_msg("%s, after %s: %s", questions[pair[k]], questions[pair[0]], error.message);
+        }
+        tartan_session_free(session);
+    }
+}
+
 static void tells_notes(void **state)
 {
     (void)state;
@@ -296,10 +342,15 @@ static void refuses_misuse(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(answers_one_after_another),         cmocka_unit_test(tells_notes),
-        cmocka_unit_test(compiles_again_for_requirements),   cmocka_unit_test(keeps_values_of_params),
-        cmocka_unit_test(refuses_values_of_params),          cmocka_unit_test(can_be_stopped),
-        cmocka_unit_test(gives_bytes_to_whoever_takes_them), cmocka_unit_test(refuses_misuse),
+        cmocka_unit_test(answers_one_after_another),
+        cmocka_unit_test(keeps_no_watch),
+        cmocka_unit_test(tells_notes),
+        cmocka_unit_test(compiles_again_for_requirements),
+        cmocka_unit_test(keeps_values_of_params),
+        cmocka_unit_test(refuses_values_of_params),
+        cmocka_unit_test(can_be_stopped),
+        cmocka_unit_test(gives_bytes_to_whoever_takes_them),
+        cmocka_unit_test(refuses_misuse),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
