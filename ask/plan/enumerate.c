@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "ask/place/kit.h"
+#include "ask/plan/plan_rows.h"
 #include "ask/session/questions.h"
 #include "driver/open/digits.h"
 #include "runtime/house/house.h"
@@ -25,31 +26,42 @@ static tn_status refuse_range(tn_session *session, const char *from, const char 
                              "no rank is from %.60s on and before %.60s", from, to);
 }
 
-static void note_end(tn_session *session, const mpz_t kept, const char *from)
+static void note_end(tn_session *session, const mpz_t kept, const char *what, const char *from)
 {
     char *digits = tn_digits(kept, false);
-    tn_session_note(session, "the library holds %.400s plans, none of them from rank %.40s on", digits ? digits : "?",
-                    from);
+    tn_session_note(session, "the library holds %.400s %s, none of them from rank %.40s on", digits ? digits : "?",
+                    what, from);
     free(digits);
+}
+
+/* Of so many `what`. */
+static tn_status find_range(tn_session *session, const mpz_t kept, const char *what, const char *from, const char *to,
+                            mpz_t begin, mpz_t end)
+{
+    mpz_t zero;
+    mpz_init(zero);
+    asked_rank(from, zero, begin);
+    asked_rank(to, kept, end);
+    bool backwards = to && mpz_cmp(begin, end) > 0;
+    if (!backwards && mpz_sgn(kept) > 0 && mpz_cmp(begin, kept) >= 0)
+        note_end(session, kept, what, from);
+    if (mpz_cmp(end, kept) > 0)
+        mpz_set(end, kept);
+    if (mpz_cmp(begin, end) > 0)
+        mpz_set(begin, end);
+    mpz_clear(zero);
+    return backwards ? refuse_range(session, from, to) : TN_OK;
 }
 
 tn_status tn_asked_range(tn_session *session, const tn_library *library, const char *from, const char *to, mpz_t begin,
                          mpz_t end)
 {
-    mpz_t kept, zero;
-    mpz_inits(kept, zero, NULL);
+    mpz_t kept;
+    mpz_init(kept);
     tn_library_kept(library, TN_ALL_LENGTHS, kept);
-    asked_rank(from, zero, begin);
-    asked_rank(to, kept, end);
-    bool backwards = to && mpz_cmp(begin, end) > 0;
-    if (!backwards && mpz_sgn(kept) > 0 && mpz_cmp(begin, kept) >= 0)
-        note_end(session, kept, from);
-    if (mpz_cmp(end, kept) > 0)
-        mpz_set(end, kept);
-    if (mpz_cmp(begin, end) > 0)
-        mpz_set(begin, end);
-    mpz_clears(kept, zero, NULL);
-    return backwards ? refuse_range(session, from, to) : TN_OK;
+    tn_status status = find_range(session, kept, "plans", from, to, begin, end);
+    mpz_clear(kept);
+    return status;
 }
 
 /* How many are given at most. */
@@ -139,6 +151,57 @@ static tn_status enumerate_plans(tn_session *session, const tn_enumerate_request
     return status;
 }
 
+/* ---- rows of plans */
+
+static tn_status give_rows(enumeration *e, tn_finds *finds, tn_rows_of_plans *rows, tn_error *error)
+{
+    tn_watch *watch = e->session->opened->module->watch;
+    tn_status status = TN_OK;
+    while (status == TN_OK && !is_done(e) && mpz_cmp(e->rank, e->to) < 0) {
+        status = tn_rows_give(rows, e->rank, finds, error);
+        e->given++;
+        mpz_add_ui(e->rank, e->rank, 1);
+        if (status == TN_OK)
+            status = tn_watch_check(watch, error);
+    }
+    return status;
+}
+
+static tn_status list_rows(enumeration *e, tn_rows_of_plans *rows, mpz_srcptr all, tn_reply *answer)
+{
+    tn_error error;
+    tn_found_of of = {.plans = e->ready, .from = e->rank, .to = e->to, .rows = all};
+    tn_finds finds = {.session = e->session, .of = &of, .answer = answer, .lines = e->request->lines};
+    tn_status status = tn_finds_begin(&finds, &error);
+    if (status != TN_OK || finds.ended)
+        return tn_finds_end(&finds, status, &error);
+    e->given = of.before;
+    status = give_rows(e, &finds, rows, &error);
+    if (status == TN_OK)
+        tell_next(e, answer);
+    return tn_finds_end(&finds, status, &error);
+}
+
+static tn_status enumerate_rows(tn_session *session, const tn_enumerate_request *request, tn_reply *answer)
+{
+    enumeration e = {.session = session, .request = request, .limit = enumerate_limit(session, request)};
+    tn_rows_of_plans rows = {0};
+    mpz_t all;
+    mpz_inits(e.rank, e.to, all, NULL);
+    tn_status status = tn_session_library(session, &request->subject, &e.ready);
+    if (status == TN_OK)
+        status = tn_rows_open(&rows, session, e.ready, &request->subject);
+    if (status == TN_OK) {
+        tn_plan_rows_count(rows.rows, TN_ALL_LENGTHS, all);
+        status = find_range(session, all, "rows of plans", request->from, request->to, e.rank, e.to);
+    }
+    if (status == TN_OK)
+        status = list_rows(&e, &rows, all, answer);
+    tn_rows_close(&rows);
+    mpz_clears(e.rank, e.to, all, NULL);
+    return status;
+}
+
 /* ---- asked */
 
 /* What only libraries of plans and houses are asked, or NULL. */
@@ -151,6 +214,7 @@ static const char *asks_library(const tn_enumerate_request *r)
            : r->mirror              ? "mirror"
            : r->lines               ? "lines"
            : r->ways                ? "ways"
+           : r->plans               ? "plans"
                                     : NULL;
 }
 
@@ -191,8 +255,11 @@ tn_status tn_ask_enumerate(tn_session *session, const tn_enumerate_request *requ
     tn_status status = tn_kit_none_asked(session, &request->kit);
     if (status != TN_OK)
         return status;
-    if (!request->plan && !tn_session_of_houses(session, &request->subject))
-        return enumerate_plans(session, request, answer);
+    bool houses = request->plan || tn_session_of_houses(session, &request->subject);
+    if (request->plans && (houses || request->ways || request->mirror))
+        return tn_rows_refuse_with(session, houses ? "houses" : request->ways ? "--ways" : "--mirror");
+    if (!houses)
+        return (request->plans ? enumerate_rows : enumerate_plans)(session, request, answer);
     if (request->ways)
         return tn_ways_refuse_houses(session);
     return request->mirror ? tn_session_refuse(session, NULL, "--mirror is about plans: of houses all are written")

@@ -2,6 +2,7 @@
 #include "ask/plan/found.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "ask/house/numbered.h"
 #include "runtime/house/house.h"
@@ -95,6 +96,19 @@ static tn_status set_value(const tn_wishes *wishes, mpq_t *from, mpq_t value, tn
     return TN_OK;
 }
 
+/* A row of plans. */
+static tn_status add_row(const tn_schema *schema, const tn_found_one *found, char **line, char **members,
+                         tn_error *error)
+{
+    tn_buffer written = {0};
+    tn_json json = tn_json_text(&written, TN_JSON_TIGHT);
+    tn_plan_write_trays(schema, found->trays, found->length, &json);
+    tn_json_written(&json, found->plans, strlen(found->plans));
+    *members = written.data;
+    bool good = !line || (*line = strdup(found->row));
+    return good && !written.failed ? TN_OK : tn_fail_memory(error);
+}
+
 static tn_status add_plan(const tn_finds *finds, const tn_found_one *found, tn_error *error)
 {
     tn_found_plans *to = finds->answer->value;
@@ -111,8 +125,11 @@ static tn_status add_plan(const tn_finds *finds, const tn_found_one *found, tn_e
     plan->has_values = wishes && wishes->count > 1;
     if (wishes && set_value(wishes, found->values, plan->value, &plan->values, error) != TN_OK)
         return TN_MEMORY;
-    return tn_found_plan_texts(finds->of->plans->schema, found->trays, found->length, finds->lines ? &plan->plan : NULL,
-                               &plan->members, error);
+    const tn_schema *schema = finds->of->plans->schema;
+    char **line = finds->lines ? &plan->plan : NULL;
+    if (found->row)
+        return add_row(schema, found, line, &plan->members, error);
+    return tn_found_plan_texts(schema, found->trays, found->length, line, &plan->members, error);
 }
 
 static tn_status add_house(const tn_finds *finds, const tn_found_one *found, tn_error *error)

@@ -26,6 +26,8 @@ typedef struct tn_found_one {
     tn_house *house;    /* NULL: it is a plan */
     mpz_srcptr variant; /* of a house: its number among those on its plan */
     mpz_srcptr ways;    /* of a plan: in how many it is derived, if that was asked for; or NULL */
+    const char *row;    /* of a row of plans (plan_rows.h): its line; or NULL: it is none */
+    const char *plans;  /* and its plans, a member of JSON */
     mpq_t *values;      /* of the measures that were asked for, in nanometres to their power; or NULL */
 } tn_found_one;
 
@@ -38,6 +40,7 @@ typedef struct tn_found_of {
     mpz_srcptr to;           /* one past its last rank; or NULL */
     uint64_t before;         /* how many of its limit `begins` has already */
     bool ways;               /* of each plan are told, too */
+    mpz_srcptr rows;         /* rows of plans are found, so many in all; or NULL */
     mpq_srcptr weight;       /* of a sample that is drawn by weights: of all plans; or NULL */
 } tn_found_of;
 

@@ -4,6 +4,7 @@
 
 #include "ask/house/numbered.h"
 #include "ask/plan/found.h"
+#include "ask/plan/plan_rows.h"
 #include "ask/plan/ways.h"
 #include "ask/session/questions.h"
 #include "ask/session/spelled.h"
@@ -11,7 +12,7 @@
 #include "runtime/house/house.h"
 #include "runtime/plan/text/text.h"
 
-/* ---- the number of a plan */
+/* ---- why there is none */
 
 /* Names one clause that the plan fails, and where it is written. */
 static void name_clause(tn_opened *opened, tn_diagnostic *why, uint32_t clause)
@@ -66,6 +67,39 @@ static tn_status find_ways(const tn_ready_library *ready, const tn_plan *plan, t
     tn_ways_close(&ways);
     return status;
 }
+
+/* ---- the number of a row of plans */
+
+static tn_status answer_row(tn_rows_of_plans *rows, const tn_rank_request *request, tn_reply *answer)
+{
+    tn_error error;
+    tn_status status = tn_reply_new(&tn_message_ranked_plan, answer, &error);
+    if (status != TN_OK)
+        return tn_session_fail(rows->session, &error);
+    tn_ranked_plan *ranked = answer->value;
+    ranked->library = tn_text(rows->session->opened->module, rows->ready->record->name);
+    status = tn_rows_read(rows, request->plan);
+    if (status != TN_OK ||
+        tn_plan_rows_rank(rows->rows, rows->trays, rows->length, (const mpz_t *)rows->numbers, ranked->rank))
+        return status;
+    const tn_plan row = {.trays = rows->trays, .length = rows->length};
+    return say_why(rows->session, rows->ready, &row, tn_asked_length(&request->subject));
+}
+
+static tn_status rank_row(tn_session *session, const tn_rank_request *request, tn_reply *answer)
+{
+    const tn_ready_library *ready;
+    tn_rows_of_plans rows = {0};
+    tn_status status = tn_session_library(session, &request->subject, &ready);
+    if (status == TN_OK)
+        status = tn_rows_open(&rows, session, ready, &request->subject);
+    if (status == TN_OK)
+        status = answer_row(&rows, request, answer);
+    tn_rows_close(&rows);
+    return status;
+}
+
+/* ---- the number of a plan */
 
 static tn_status answer_plan(tn_session *session, const tn_ready_library *ready, const tn_plan *plan,
                              const tn_rank_request *request, tn_reply *answer)
@@ -136,12 +170,14 @@ tn_status tn_ask_rank(tn_session *session, const tn_rank_request *request, tn_re
         return tn_session_refuse(session, NULL, "say whose number is asked for: a plan's or a house's");
     if (request->house && request->ways)
         return tn_ways_refuse_houses(session);
+    if (request->plans && (request->house || request->ways))
+        return tn_rows_refuse_with(session, request->house ? "houses" : "--ways");
     if (request->house)
         return rank_house(session, request, answer);
     if (request->of_all)
         return tn_session_refuse(session, "the number of a plan is its rank among all plans: leave --of-all out",
                                  "--of-all is about a house, and this is a plan");
-    return rank_plan(session, request, answer);
+    return (request->plans ? rank_row : rank_plan)(session, request, answer);
 }
 
 /* ---- the plan of a number */
@@ -178,6 +214,40 @@ static tn_status unrank_plan(tn_session *session, const tn_unrank_request *reque
     return status;
 }
 
+/* ---- the row of plans of a number */
+
+static tn_status set_row(tn_rows_of_plans *rows, tn_reply *answer, tn_error *error)
+{
+    tn_status status = tn_reply_new(&tn_message_unranked_plan, answer, error);
+    tn_unranked_plan *plan = answer->value;
+    return status == TN_OK ? tn_rows_texts(rows, &plan->line, &plan->members, error) : status;
+}
+
+static tn_status answer_row_of(tn_rows_of_plans *rows, const char *digits, tn_reply *answer)
+{
+    tn_error error;
+    mpz_t rank;
+    mpz_init_set_str(rank, digits, 10);
+    bool there = tn_rows_find(rows, rank);
+    mpz_clear(rank);
+    if (!there)
+        return tn_rows_no_rank(rows, digits);
+    return set_row(rows, answer, &error) == TN_OK ? TN_OK : tn_session_fail(rows->session, &error);
+}
+
+static tn_status unrank_row(tn_session *session, const tn_unrank_request *request, tn_reply *answer)
+{
+    const tn_ready_library *ready;
+    tn_rows_of_plans rows = {0};
+    tn_status status = tn_session_library(session, &request->subject, &ready);
+    if (status == TN_OK)
+        status = tn_rows_open(&rows, session, ready, &request->subject);
+    if (status == TN_OK)
+        status = answer_row_of(&rows, request->rank, answer);
+    tn_rows_close(&rows);
+    return status;
+}
+
 /* ---- the house of a number */
 
 static tn_status set_house(void *context, const tn_house *house, tn_error *error)
@@ -201,6 +271,8 @@ tn_status tn_ask_unrank(tn_session *session, const tn_unrank_request *request, t
     *answer = (tn_reply){0};
     if (!digits && !tn_is_house_number(rank))
         return tn_session_refuse(session, NULL, "a rank is a whole number from 0, not `%.60s`", rank);
-    return digits && !tn_session_of_houses(session, &request->subject) ? unrank_plan(session, request, answer)
-                                                                       : unrank_house(session, request, answer);
+    bool house = !digits || tn_session_of_houses(session, &request->subject);
+    if (house && request->plans)
+        return tn_rows_refuse_with(session, "houses");
+    return (house ? unrank_house : request->plans ? unrank_row : unrank_plan)(session, request, answer);
 }

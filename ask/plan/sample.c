@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "ask/house/numbered.h"
-#include "ask/plan/found.h"
+#include "ask/plan/plan_rows.h"
 #include "ask/plan/weights.h"
 #include "ask/session/questions.h"
 #include "driver/open/digits.h"
@@ -19,6 +19,7 @@ typedef struct drawing {
     tn_session *session;
     const tn_library *library;
     const tn_sample_request *request;
+    tn_rows_of_plans *rows;    /* rows of plans are drawn; or NULL */
     tn_likelihood *likelihood; /* NULL: each plan is as likely as each */
     mpq_t weight;              /* of all plans, if they are drawn by it */
     mpz_t *ranks;              /* of one length ascending */
@@ -46,12 +47,21 @@ static void clear(drawing *d)
     mpq_clear(d->weight);
 }
 
+/* How many there are to be drawn from. */
+static void find_kept(const drawing *d, uint32_t length, mpz_t kept)
+{
+    if (d->rows)
+        tn_plan_rows_count(d->rows->rows, length, kept);
+    else
+        tn_library_kept(d->library, length, kept);
+}
+
 /* What the library holds in a length, if that is fewer than wanted: no room is needed for more. */
-static size_t at_most(const tn_library *library, uint32_t length, size_t wanted)
+static size_t at_most(const drawing *d, uint32_t length, size_t wanted)
 {
     mpz_t kept;
     mpz_init(kept);
-    tn_library_kept(library, length, kept);
+    find_kept(d, length, kept);
     if (mpz_cmp_ui(kept, wanted) < 0)
         wanted = (size_t)mpz_get_ui(kept);
     mpz_clear(kept);
@@ -64,7 +74,7 @@ static tn_status check_memory(const drawing *d, uint32_t length, size_t count, t
     mpz_t kept;
     char what[64];
     mpz_init(kept);
-    tn_library_kept(d->library, length, kept);
+    find_kept(d, length, kept);
     uint64_t limbs = mpz_size(kept), bytes = sizeof(mpz_t) + 2 * sizeof(mp_limb_t) * limbs + 16 + 4 * sizeof(size_t);
     mpz_clear(kept);
     if (d->likelihood) /* where it lies among the masses, and its place in a tree */
@@ -78,20 +88,37 @@ static tn_status check_memory(const drawing *d, uint32_t length, size_t count, t
 
 static void note_few(const drawing *d, uint32_t length, size_t found, size_t wanted)
 {
-    const char *plural = found == 1 ? "" : "s";
+    const char *what = d->rows ? (found == 1 ? "row of plans" : "rows of plans") : found == 1 ? "plan" : "plans";
     if (length == TN_ALL_LENGTHS)
-        tn_session_note(d->session, "the library holds %zu plan%s, fewer than the %zu asked for: these are all", found,
-                        plural, wanted);
+        tn_session_note(d->session, "the library holds %zu %s, fewer than the %zu asked for: these are all", found,
+                        what, wanted);
     else
         tn_session_note(d->session,
-                        "the library holds %zu plan%s of length %u, fewer than the %zu asked for: these are all", found,
-                        plural, length, wanted);
+                        "the library holds %zu %s of length %u, fewer than the %zu asked for: these are all", found,
+                        what, length, wanted);
+}
+
+/* Each row of plans of a length as likely as each. */
+static tn_status choose_rows(const drawing *d, uint32_t length, size_t count, mpz_t *ranks, size_t *found,
+                             tn_error *error)
+{
+    mpz_t number;
+    mpz_init(number);
+    find_kept(d, length, number);
+    tn_status status = tn_ranks_sample(d->request->seed, length, number, count, ranks, found, error);
+    tn_plan_rows_before(d->rows->rows, length, number);
+    for (size_t i = 0; status == TN_OK && i < *found; i++)
+        mpz_add(ranks[i], ranks[i], number);
+    mpz_clear(number);
+    return status;
 }
 
 static tn_status choose(const drawing *d, uint32_t length, size_t count, size_t *found, tn_error *error)
 {
     const tn_sample_request *r = d->request;
     mpz_t *ranks = d->ranks + d->count;
+    if (d->rows)
+        return choose_rows(d, length, count, ranks, found, error);
     if (d->likelihood)
         return tn_likelihood_sample(d->likelihood, r->seed, length, count, ranks, found, error);
     return (r->diverse ? tn_library_diverse : tn_library_sample)(d->library, r->seed, length, count, ranks, found,
@@ -100,7 +127,7 @@ static tn_status choose(const drawing *d, uint32_t length, size_t count, size_t 
 
 static tn_status draw_length(drawing *d, uint32_t length, size_t wanted, tn_error *error)
 {
-    size_t count = at_most(d->library, length, wanted), found = 0;
+    size_t count = at_most(d, length, wanted), found = 0;
     tn_status status = check_memory(d, length, count, error);
     if (status == TN_OK)
         status = make_room(d, count, error);
@@ -225,6 +252,64 @@ static tn_status sample_plans(tn_session *session, const tn_sample_request *requ
     return tn_finds_end(&finds, status, &error);
 }
 
+/* ---- rows of plans */
+
+static tn_status give_rows(const drawing *d, tn_finds *finds, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < d->count; i++) {
+        status = tn_watch_check(d->session->opened->module->watch, error);
+        if (status == TN_OK)
+            status = tn_rows_give(d->rows, d->ranks[i], finds, error);
+    }
+    return status;
+}
+
+static tn_status draw_rows(drawing *d, const tn_ready_library *ready, tn_reply *answer)
+{
+    tn_error error;
+    mpz_t all;
+    mpz_init(all);
+    tn_plan_rows_count(d->rows->rows, TN_ALL_LENGTHS, all);
+    tn_found_of of = {.plans = ready, .rows = all};
+    tn_finds finds = {.session = d->session, .of = &of, .answer = answer, .lines = d->request->lines};
+    tn_status status = draw(d, &error);
+    if (status == TN_OK)
+        status = tn_finds_begin(&finds, &error);
+    if (status == TN_OK && !finds.ended)
+        status = give_rows(d, &finds, &error);
+    status = tn_finds_end(&finds, status, &error);
+    mpz_clear(all);
+    return status;
+}
+
+static tn_status refuse_weighted_rows(tn_session *session, const tn_ready_library *ready)
+{
+    return tn_session_refuse(session, "add --uniform, or leave out --plans",
+                             "rows of plans are drawn each as likely as each, and `%s` has weights",
+                             tn_text(session->opened->module, ready->record->name));
+}
+
+static tn_status sample_rows(tn_session *session, const tn_sample_request *request, tn_reply *answer)
+{
+    const tn_ready_library *ready;
+    tn_rows_of_plans rows = {0};
+    tn_status status =
+        (request->generated ? tn_session_generated : tn_session_library)(session, &request->subject, &ready);
+    if (status == TN_OK)
+        status = tn_rows_open(&rows, session, ready, &request->subject);
+    if (status == TN_OK && ready->record->weight_count > 0 && !request->uniform)
+        status = refuse_weighted_rows(session, ready);
+    if (status == TN_OK) {
+        drawing d = {.session = session, .library = ready->library, .request = request, .rows = &rows};
+        mpq_init(d.weight);
+        status = draw_rows(&d, ready, answer);
+        clear(&d);
+    }
+    tn_rows_close(&rows);
+    return status;
+}
+
 /* ---- houses */
 
 typedef struct giving {
@@ -314,10 +399,12 @@ tn_status tn_ask_sample(tn_session *session, const tn_sample_request *request, t
         return tn_session_refuse(session, NULL, "`generated` is asked of plans, and this is a library of houses");
     if (houses && r->ways)
         return tn_ways_refuse_houses(session);
+    if (r->plans && (houses || r->ways || r->diverse))
+        return tn_rows_refuse_with(session, houses ? "houses" : r->ways ? "--ways" : "--diverse");
     if (houses && (r->has_length || r->has_per_length))
         return refuse_for_houses(session, r);
     tn_status status = check(session, r, houses);
     if (status != TN_OK)
         return status;
-    return houses ? sample_houses(session, r, answer) : sample_plans(session, r, answer);
+    return (houses ? sample_houses : r->plans ? sample_rows : sample_plans)(session, r, answer);
 }

@@ -63,15 +63,22 @@ tn_status tn_session_no_rank(tn_session *session, const tn_library *library, con
     mpz_t kept;
     mpz_init(kept);
     tn_library_kept(library, TN_ALL_LENGTHS, kept);
-    char *digits = mpz_get_str(NULL, 10, kept);
-    tn_diagnostic *past = tn_report_bare(said(session), TN_ERROR, E_NOT_IN_LIBRARY, "`%s` has no plan of rank %.80s",
-                                         tn_text(session->opened->module, record->name), rank);
-    if (mpz_sgn(kept) == 0)
-        tn_help(said(session), past, "it holds no plans");
-    else
-        tn_help(said(session), past, "it holds %s plans; ranks start at 0", digits ? digits : "?");
-    free(digits);
+    tn_status status = tn_session_no_rank_of(session, record, kept, (const char *const[2]){"plan", "plans"}, rank);
     mpz_clear(kept);
+    return status;
+}
+
+tn_status tn_session_no_rank_of(tn_session *session, const tn_library_record *record, const mpz_t kept,
+                                const char *const what[2], const char *rank)
+{
+    char *digits = mpz_get_str(NULL, 10, kept);
+    tn_diagnostic *past = tn_report_bare(said(session), TN_ERROR, E_NOT_IN_LIBRARY, "`%s` has no %s of rank %.80s",
+                                         tn_text(session->opened->module, record->name), what[0], rank);
+    if (mpz_sgn(kept) == 0)
+        tn_help(said(session), past, "it holds no %s", what[1]);
+    else
+        tn_help(said(session), past, "it holds %s %s; ranks start at 0", digits ? digits : "?", what[1]);
+    free(digits);
     return TN_INVALID;
 }
 

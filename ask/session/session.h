@@ -79,6 +79,10 @@ tn_status tn_session_refuse(tn_session *session, const char *help, const char *f
 tn_status tn_session_no_rank(tn_session *session, const tn_library *library, const tn_library_record *record,
                              const char *rank);
 
+/* The same of so many others; what: one of them, and several. */
+tn_status tn_session_no_rank_of(tn_session *session, const tn_library_record *record, const mpz_t kept,
+                                const char *const what[2], const char *rank);
+
 /* Opens a text in the place of the session's file, which is a rule file, as that was opened. TN_INVALID: something is
  * wrong with it, which `opened` says; all else that can happen is said by the session. Close it in any case. */
 tn_status tn_session_open_text(tn_session *session, const char *text, size_t size, const tn_questions *questions,

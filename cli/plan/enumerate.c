@@ -153,7 +153,7 @@ typedef struct enumerate_settings {
     tn_written_settings written;
     const char *from, *to, *plan;
     tn_option_number limit;
-    bool mirror, ways;
+    bool mirror, ways, rows;
     tn_kit_options kit;
 } enumerate_settings;
 
@@ -206,6 +206,7 @@ static tn_enumerate_request request_of(const enumerate_settings *s)
                                   .plan = s->plan,
                                   .mirror = s->mirror,
                                   .ways = s->ways,
+                                  .plans = s->rows,
                                   .kit = tn_kit_options_asked(&s->kit)};
 }
 
@@ -284,6 +285,7 @@ static const tn_option options[] = {
     FLAG("mirror", 0, mirror,
          "one of each pair of plans that mirror each other; ranks stay those of the whole library"),
     OPTION_PLAN_WAYS,
+    OPTION_ROWS_OF_PLANS(rows, "write rows of plans"),
     OPTION_PLAN_FORMAT,
     OPTION_COLUMNS,
     OPTION_CSV_SAFE,

@@ -77,18 +77,26 @@ static bool open_plans(tn_found_rows *rows)
 {
     static const tn_row_columns ways = {
         .what = "plans with their ways", .table = "plans", .before = true, .names = {"ways"}, .count = 1};
+    static const tn_row_columns stands = {.what = "rows of plans", .table = "rows", .names = {"row"}, .count = 1};
     const tn_ready_library *ready = rows->of.plans;
     const tn_written_settings *settings = rows->settings;
     char command[400];
     tn_provenance described;
     mpz_t ranks;
     mpz_init(ranks);
-    snprintf(command, sizeof command, "%s%s%s%s", rows->made, settings->columns ? " --columns" : "",
-             rows->of.ways ? " --ways" : "", rows->of.weight ? " (by weight)" : "");
+    snprintf(command, sizeof command, "%s%s%s%s%s", rows->made, settings->columns ? " --columns" : "",
+             rows->of.ways ? " --ways" : "", rows->of.rows ? " --plans" : "", rows->of.weight ? " (by weight)" : "");
     tn_provenance_describe(&rows->job->opened, ready, rows->job->settings->operands.items[0], command, &described);
-    tn_library_kept(ready->library, TN_ALL_LENGTHS, ranks);
-    const tn_row_source source = {
-        .schema = ready->schema, .metadata = &described.metadata, .rows = rows->of.ways ? &ways : NULL, .ranks = ranks};
+    if (rows->of.rows)
+        mpz_set(ranks, rows->of.rows);
+    else
+        tn_library_kept(ready->library, TN_ALL_LENGTHS, ranks);
+    const tn_row_source source = {.schema = ready->schema,
+                                  .metadata = &described.metadata,
+                                  .rows = rows->of.rows   ? &stands
+                                          : rows->of.ways ? &ways
+                                                          : NULL,
+                                  .ranks = ranks};
     bool opened = job_row_writer(rows->job, settings, &source, &rows->writer);
     mpz_clear(ranks);
     return opened;
@@ -108,7 +116,7 @@ static bool open_houses(tn_found_rows *rows)
 
 static const char *things(const tn_found_rows *rows)
 {
-    return rows->of.houses ? "houses" : "plans";
+    return rows->of.houses ? "houses" : rows->of.rows ? "rows of plans" : "plans";
 }
 
 /* Goes on after what a database has. */
@@ -218,6 +226,11 @@ static tn_status write_house(tn_found_rows *rows, const tn_found_one *found, tn_
 
 static tn_status write_plan(tn_found_rows *rows, const tn_found_one *found, tn_error *error)
 {
+    if (found->row) {
+        const tn_plan_row row = {
+            .trays = found->trays, .length = found->length, .texts = {found->row}, .members = found->plans};
+        return tn_plan_writer_write_row(rows->writer, found->rank, &row, error);
+    }
     if (!found->ways)
         return tn_plan_writer_write(rows->writer, found->rank, found->trays, found->length, error);
     char *ways = mpz_get_str(NULL, 10, found->ways);

@@ -36,6 +36,10 @@ typedef struct tn_written_settings {
     NUMBER("row-group", 0, "N", written.row_group, 1, UINT32_MAX, "in Parquet, plans of a row group (default 1000000)")
 #define OPTION_PLAN_WAYS                                                                                               \
     FLAG("ways", 0, ways, "also in how many ways each plan is derived by what the library generates")
+#define OPTION_ROWS_OF_PLANS(member, does)                                                                             \
+    FLAG("plans", 0, member,                                                                                           \
+         does ", of a library whose trays stand for plans: each tray with its plan in brackets; ranks are among "      \
+              "rows of plans")
 #define OPTION_PLAN_LINES FLAG("plan-lines", 0, written.plan_lines, "in Parquet, add a column of plan lines")
 #define TN_WRITES_ROWS                                                                                                 \
     (TN_WRITES_TEXT | TN_WRITES(JSON) | TN_WRITES(CSV) | TN_WRITES(BIN) | TN_WRITES(SQLITE) | TN_WRITES(PARQUET))

@@ -9,7 +9,7 @@
 typedef struct rank_settings {
     tn_settings common;
     tn_plan_settings plans;
-    bool of_all, ways, json;
+    bool of_all, ways, rows, json;
 } rank_settings;
 
 static void write_text(const tn_reply *answer, FILE *out)
@@ -31,12 +31,13 @@ static void write_text(const tn_reply *answer, FILE *out)
 
 static void rank(tn_job *job, const rank_settings *settings, const char *text)
 {
-    bool house = tn_is_house_line(text);
+    bool house = !settings->rows && tn_is_house_line(text);
     const tn_rank_request request = {.subject = tn_job_asked(&settings->plans),
                                      .plan = house ? NULL : text,
                                      .house = house ? text : NULL,
                                      .of_all = settings->of_all,
-                                     .ways = settings->ways};
+                                     .ways = settings->ways,
+                                     .plans = settings->rows};
     tn_reply answer;
     tn_output output;
     if (tn_job_answered(job, tn_ask_rank(&job->session, &request, &answer)) && tn_job_output(job, NULL, &output)) {
@@ -68,6 +69,9 @@ static const tn_option options[] = {
     OPTION_TRAYS,
     FLAG("of-all", 0, of_all, "of a house: its rank among all houses, #R, in place of #P:V"),
     FLAG("ways", 0, ways, "of a plan: behind its rank, in how many ways it is derived by what the library generates"),
+    FLAG("plans", 0, rows,
+         "of a row of plans, of a library whose trays stand for plans: PLAN is a line of trays, each with its plan in "
+         "brackets"),
     FLAG("json", 0, json, "write the number as JSON"),
     OPTION_MAX_LENGTH,
     OPTION_MAX_STATES,

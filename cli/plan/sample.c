@@ -18,6 +18,7 @@ typedef struct sample_settings {
     bool diverse; /* plans that differ, instead of even chances */
     bool uniform; /* even chances, instead of weights */
     bool ways;
+    bool rows; /* of plans */
     const char *plan;
 } sample_settings;
 
@@ -52,6 +53,7 @@ static void sample(tn_job *job, size_t wanted)
                                        .diverse = s->diverse,
                                        .uniform = s->uniform,
                                        .ways = s->ways,
+                                       .plans = s->rows,
                                        .plan = s->plan};
     tn_found_rows rows;
     tn_reply answer;
@@ -102,8 +104,8 @@ static bool can_share(tn_job *job)
     if (s->length.given || s->per_length.given || s->diverse)
         tn_help(list, tn_job_usage(job, "a shard set has a sample of all plans"),
                 "leave out --length, --per-length and --diverse; `tartan shards new --trays L` takes one length");
-    else if (s->ways)
-        tn_help(list, tn_job_usage(job, "a shard set has plans alone"), "leave out --ways");
+    else if (s->ways || s->rows)
+        tn_help(list, tn_job_usage(job, "a shard set has plans alone"), "leave out --%s", s->ways ? "ways" : "plans");
     else if (s->written.columns || s->written.csv_safe)
         tn_help(list, tn_job_usage(job, "the shards of a set have the usual columns"),
                 "leave out --columns and --csv-safe");
@@ -159,6 +161,7 @@ static const tn_option options[] = {
            "make a shard set of M shards, the folder that -o names: `tartan shards run` draws the same plans"),
     TEXT("plan", 0, "PLAN", plan, "draw houses on one plan: a plan in any spelling, or # and its rank"),
     OPTION_PLAN_WAYS,
+    OPTION_ROWS_OF_PLANS(rows, "draw rows of plans, each as likely as each"),
     OPTION_PLAN_FORMAT,
     OPTION_COLUMNS,
     OPTION_CSV_SAFE,

@@ -9,12 +9,13 @@
 typedef struct unrank_settings {
     tn_settings common;
     tn_plan_settings plans;
-    bool json;
+    bool rows, json;
 } unrank_settings;
 
 static void unrank(tn_job *job, const unrank_settings *settings, const char *text)
 {
-    const tn_unrank_request request = {.subject = tn_job_asked(&settings->plans), .rank = text};
+    const tn_unrank_request request = {
+        .subject = tn_job_asked(&settings->plans), .rank = text, .plans = settings->rows};
     tn_reply answer;
     tn_output output;
     if (tn_job_answered(job, tn_ask_unrank(&job->session, &request, &answer)) && tn_job_output(job, NULL, &output)) {
@@ -48,6 +49,9 @@ static int run(const tn_command *command, const tn_settings *common)
 #define SETTINGS unrank_settings
 static const tn_option options[] = {
     OPTIONS_LIBRARY,
+    FLAG("plans", 0, rows,
+         "the row of plans of that rank among these, of a library whose trays stand for plans: each tray with its plan "
+         "in brackets"),
     FLAG("json", 0, json, "write the plan or house as a JSON object"),
     OPTIONS_LIBRARY_LIMITS,
 };

@@ -14,7 +14,7 @@ typedef struct counted {
     tn_module *module;
     tn_schema *schema;
     tn_library *library;
-    uint32_t *measures;
+    tn_bundle_measure *measures;
     tn_crosstab table;
 } counted;
 
@@ -33,11 +33,12 @@ static tn_status find_measures(const tn_census_request *request, counted *c, siz
     if (!c->measures)
         return tn_fail_memory(error);
     for (size_t i = 0; i < request->measure_count; i++) {
-        c->measures[i] = tn_named_measure_find(c->module, record, request->measures[i]);
+        uint32_t measure = tn_named_measure_find(c->module, record, request->measures[i]);
         *column = i;
-        if (c->measures[i] == TN_NO_RECORD)
+        if (measure == TN_NO_RECORD)
             return tn_fail(error, TN_INVALID, E_PLAN_VALUES, "`%.200s` is no measure of the plans of library `%.200s`",
                            request->measures[i], request->library);
+        c->measures[i] = tn_bundle_measure_of(c->module, record, measure);
     }
     *column = SIZE_MAX;
     return TN_OK;
@@ -160,6 +161,14 @@ static tn_length_style style_of(const tn_schema *schema)
                : tn_length_style_of(tn_text(schema->module, schema->values[schema->value_start[field]].name));
 }
 
+/* Of a length: what the measure is. */
+static int power_of(const counted *c, size_t column)
+{
+    const tn_bundle_measure *measure = &c->measures[column];
+    int power = (int)c->module->SUM_records[measure->sum].power;
+    return measure->over == TN_NO_RECORD ? power : power - (int)c->module->SUM_records[measure->over].power;
+}
+
 static tn_status fill(const counted *c, tn_arena *arena, tn_census *census, tn_error *error)
 {
     size_t columns = c->table.measures;
@@ -168,7 +177,7 @@ static tn_status fill(const counted *c, tn_arena *arena, tn_census *census, tn_e
     if (!powers || !census->rows)
         return tn_fail_memory(error);
     for (size_t k = 0; k < columns; k++)
-        powers[k] = tn_named_measure_power(c->module, c->measures[k]);
+        powers[k] = power_of(c, k);
     for (size_t i = 0; i < c->table.count; i++) {
         tn_census_row *row = &census->rows[i];
         row->values = tn_arena_alloc_array(arena, sizeof *row->values, columns + 1);

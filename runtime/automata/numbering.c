@@ -129,6 +129,12 @@ uint32_t tn_intern(tn_interner *interner, const uint32_t *data, size_t size)
     return number;
 }
 
+uint32_t tn_interner_find(const tn_interner *interner, const uint32_t *data, size_t size)
+{
+    wanted_words wanted = {interner, data, size};
+    return tn_hash_find(&interner->table, XXH3_64bits(data, size * sizeof *data), is_words, &wanted);
+}
+
 void tn_interner_clear(tn_interner *interner)
 {
     free(interner->words);

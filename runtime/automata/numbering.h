@@ -55,6 +55,9 @@ typedef struct tn_interner {
 } tn_interner;
 
 uint32_t tn_intern(tn_interner *interner, const uint32_t *data, size_t size);
+
+/* The key's number, or UINT32_MAX where it has none. */
+uint32_t tn_interner_find(const tn_interner *interner, const uint32_t *data, size_t size);
 void tn_interner_clear(tn_interner *interner);
 
 static inline const uint32_t *tn_interned(const tn_interner *interner, uint32_t number, size_t *size)

@@ -3,10 +3,11 @@
 
 Of each seed a library of houses is listed; what measures and rules say of each house is worked out here, and so for how many houses each
 tray of `lots` stands. All rows of up to four trays are tried: which trays there are, how many rows of trays and of houses a street has, in
-which order, what both engines say of each row, and how likely rows are drawn. With ORACLES the rows of its plan/third.py are asked, too.
+which order, what both engines say of each row, and how likely rows are drawn; and rows of houses, one by one. With ORACLES the rows of its plan/third.py are asked, too.
 """
 import itertools
 import json
+import math
 import os
 import random
 import re
@@ -181,6 +182,56 @@ def check(seed):
         chance = max(map(plans_of, single)) / sum(map(plans_of, single))
         if abs(hits / draws - chance) > 5 * (chance * (1 - chance) / draws) ** .5:
             same(seed, "drawn in proportion", hits / draws, chance)
+    check_houses(seed, R, path, module, kept, trays)
+
+
+# ---- rows of houses, one by one
+
+def with_houses(row, chosen):
+    return " | ".join(f"{' '.join(values)} [{line(house)}]" for (values, _), house in zip(row, chosen))
+
+
+def all_with_houses(kept):
+    """In the order of ranks: rows of trays, then houses, the first counting most."""
+    for row in kept:
+        for chosen in itertools.product(*[stands for _, stands in row]):
+            yield with_houses(row, chosen)
+
+
+def check_houses(seed, R, path, module, kept, trays):
+    """Lists, ranks and draws rows of houses: `kept` has the rows of trays, in their order."""
+    total = sum(math.prod(len(stands) for _, stands in row) for row in kept)
+    asked = ["--library", "street", "--plans"]
+    first = list(itertools.islice(all_with_houses(kept), 3000))
+    listed = run("enumerate", path, *asked, "--limit", "3000")
+    same(seed, "rows of houses listed", listed.split("\n")[:-1], first)
+    same(seed, "the module lists", run("enumerate", module, *asked, "--limit", "3000"), listed)
+    if total <= len(first):
+        drawn = run("sample", path, *asked, str(total + 1), "--seed", str(seed)).split("\n")[:-1]
+        same(seed, "all rows of houses drawn", drawn, first)
+    for k in {0, total - 1, *(R.randrange(total) for _ in range(4))} if total else ():
+        row = run("unrank", path, *asked, str(k)).strip("\n")
+        if k < len(first):
+            same(seed, f"row of houses {k}", row, first[k])
+        same(seed, f"rank of row of houses {k}", run("rank", path, *asked, row).strip(), str(k))
+        found = json.loads(run("enumerate", path, *asked, "--from", str(k), "--limit", "1", "-f", "json"))
+        same(seed, f"JSON of row of houses {k}", (found["rank"], found["row"]), (str(k), row))
+        same(seed, f"houses of row of houses {k}",
+             [" | ".join(f"{t['width']} {t['use']}" for t in house["trays"]) for house in found["plans"]], re.findall(r"\[(.*?)\]", row))
+    refused = subprocess.run([PROGRAM, "unrank", path, *asked, str(total)], capture_output=True, text=True)
+    same(seed, "a rank that is none", (refused.returncode, "E0906" in refused.stderr), (1, True))
+    row = next((r for r in kept if r), None)
+    others = [stands[0] for _, stands in trays if row and stands[0] not in row[0][1]]
+    if others:
+        wrong = with_houses(row, [others[0], *(stands[0] for _, stands in row[1:])])
+        refused = subprocess.run([PROGRAM, "rank", path, *asked, wrong], capture_output=True, text=True)
+        same(seed, "a house of another tray", (refused.returncode, "E0906" in refused.stderr), (1, True))
+    if seed % 5 == 0 and 1 < total <= 40:
+        draws = [run("sample", path, "1", *asked, "--seed", str(k)).strip("\n") for k in range(300)]
+        for row in first:
+            chance = 1 / total
+            if abs(draws.count(row) / 300 - chance) > 5 * (chance * (1 - chance) / 300) ** .5:
+                same(seed, "rows of houses drawn evenly", draws.count(row) / 300, chance)
 
 
 # ---- the reference's own rows

@@ -37,6 +37,8 @@ typedef struct tn_checked_field {
     bool ordered;         /* a choice whose values go from the least to the greatest */
     uint32_t older_count; /* of them: values that the schema it is made from has */
     uint32_t first_bit;   /* of its values in the schema's masks */
+    struct tn_checked_sum
+        *said; /* of a schema of a library: what it is of a plan, a rule 1 or 0; NULL: it is not said */
 } tn_checked_field;
 
 typedef struct tn_checked_spec {

@@ -261,6 +261,62 @@ static void report_uncounted(tn_check *check, const tn_checked_schema *schema)
     }
 }
 
+/* ---- what the fields are of a plan, for whoever asks which plans a tray stands for */
+
+/* The measure as the library's schema has it: of an older one it has its own. */
+static tn_checked_sum *sum_of_measure(const tn_check *check, const tn_ast_word *name, const tn_checked_schema *schema)
+{
+    for (size_t i = 0; i < check->result->rule_count; i++) {
+        const tn_checked_rule *measure = check->result->rules[i];
+        if (measure->is_measure && measure->schema == schema && strcmp(measure->name, name->text) == 0)
+            return measure->sum;
+    }
+    return NULL;
+}
+
+/* matches(rule), in the library's schema. */
+static tn_checked_sum *sum_of_rule(tn_check *check, const tn_ast_word *name, tn_checked_schema *schema)
+{
+    tn_ast_clause *clause = TN_NEW(check->arena, tn_ast_clause);
+    tn_ast_expr *expr = TN_NEW(check->arena, tn_ast_expr);
+    tn_checked_sum *sum = TN_NEW(check->arena, tn_checked_sum);
+    tn_checked_term *term = TN_NEW(check->arena, tn_checked_term);
+    if (!clause || !expr || !sum || !term)
+        return NULL;
+    *expr = (tn_ast_expr){.node.span = name->node.span, .kind = TN_EXPR_NAME, .depth = 1, .name = name};
+    *clause = (tn_ast_clause){.expr = expr};
+    check->schema = schema;
+    check->quiet = true;
+    tn_check_clause_expr(check, clause);
+    check->quiet = false;
+    bool named = clause->expr->kind == TN_EXPR_NAME;
+    *term = (tn_checked_term){.kind = TN_TERM_MATCHES,
+                              .factor = "1",
+                              .part = named ? NULL : clause->expr,
+                              .rule = named ? clause->expr->rule : NULL,
+                              .span = name->node.span};
+    *sum = (tn_checked_sum){.schema = schema,
+                            .terms = term,
+                            .count = 1,
+                            .constant = "0",
+                            .whole = true,
+                            .span = name->node.span,
+                            .index = TN_NONE};
+    return sum;
+}
+
+static void find_sums(tn_check *check, tn_checked_schema *schema, const tn_checked_library *library)
+{
+    for (uint32_t f = 0; f < schema->field_count; f++) {
+        tn_checked_field *field = &schema->fields[f];
+        if (!tn_field_is_said(field->ast))
+            continue;
+        const tn_ast_word *name = field->ast->said_by;
+        field->said = field->ast->form == TN_FORM_MEASURE ? sum_of_measure(check, name, library->schema)
+                                                          : sum_of_rule(check, name, library->schema);
+    }
+}
+
 void tn_check_rows(tn_check *check)
 {
     tn_checked *result = check->result;
@@ -276,7 +332,11 @@ void tn_check_rows(tn_check *check)
         for (TN_EACH(const tn_ast_field, field, schema->ast->body.fields))
             if (tn_field_is_said(field))
                 check_said(check, field, library);
-        if (library && check->diagnostics->error_count == errors && !tn_schema_census(schema))
+        if (!library || check->diagnostics->error_count > errors)
+            continue;
+        if (tn_schema_census(schema))
+            find_sums(check, schema, library);
+        else
             report_uncounted(check, schema);
     }
 }

@@ -55,6 +55,7 @@ tn_status tn_emit_module(tn_arena *arena, const tn_checked *checked, const tn_im
     tn_emit_rules(&emit);
     tn_emit_libraries(&emit);
     tn_emit_measures(&emit);
+    tn_emit_said(&emit);
     tn_status status = TN_OK;
     if (emit.instructions > TN_INSTRUCTIONS_MAX) {
         status =

@@ -74,6 +74,7 @@ uint32_t tn_emit_house_sum(tn_emit *emit, const tn_checked_sum *sum, uint32_t of
 uint32_t tn_emit_sum(tn_emit *emit, tn_checked_sum *sum, const char *name);
 void tn_emit_plan_measure(tn_emit *emit, tn_checked_rule *measure);
 void tn_emit_measures(tn_emit *emit); /* their records */
+void tn_emit_said(tn_emit *emit);     /* what fields of schemas of libraries are of a plan */
 
 /* ---- library.c */
 void tn_emit_libraries(tn_emit *emit);

@@ -90,6 +90,24 @@ static uint32_t library_of(const tn_emit *emit, const tn_checked_schema *schema)
     return TN_NO_RECORD;
 }
 
+void tn_emit_said(tn_emit *emit)
+{
+    for (size_t i = 0; i < emit->checked->schema_count; i++) {
+        const tn_checked_schema *schema = emit->checked->schemas[i], *of = tn_schema_of_library(schema);
+        for (uint32_t f = 0; of && f < of->field_count; f++) {
+            tn_checked_sum *sum = of->fields[f].said;
+            if (!sum)
+                continue;
+            uint32_t index = tn_emit_sum(emit, sum, of->fields[f].name);
+            tn_builder_add_SAID(emit->builder, &(tn_said_record){
+                                                   .field = schema->field_first + f,
+                                                   .sum = index,
+                                                   .over = sum->over ? sum->over->index : TN_NO_RECORD,
+                                               });
+        }
+    }
+}
+
 void tn_emit_schemas(tn_emit *emit)
 {
     for (size_t i = 0; i < emit->checked->schema_count; i++) {

@@ -138,6 +138,14 @@ void tn_plan_rows_count(const tn_plan_rows *r, uint32_t length, mpz_t count)
         mpz_set_ui(count, 0);
 }
 
+void tn_plan_rows_before(const tn_plan_rows *r, uint32_t length, mpz_t before)
+{
+    if (length == TN_ALL_LENGTHS || length > r->library->max)
+        mpz_set_ui(before, 0);
+    else
+        mpz_set(before, r->before[length]);
+}
+
 /* ---- ranks */
 
 /* Goes to the tray in whose rows the rank lies, among those that begin as `prefix` rows of plans do; the rank becomes
@@ -179,5 +187,39 @@ bool tn_plan_rows_unrank(const tn_plan_rows *r, const mpz_t rank, tn_tray *trays
     for (uint32_t i = *length; i-- > 0;)
         mpz_tdiv_qr(rest, plans[i], rest, tn_plan_rows_of_tray(r, trays[i]));
     mpz_clears(rest, prefix, NULL);
+    return true;
+}
+
+/* Adds the rows of plans that have a tray before this one here, of those that begin as `prefix` rows of plans do. */
+static void pass_trays(const tn_plan_rows *r, uint32_t state, tn_tray tray, uint32_t left, const mpz_t prefix,
+                       mpz_t rank)
+{
+    mpz_t rows;
+    mpz_init(rows);
+    for (tn_tray t = 0; t < tray; t++) {
+        mpz_mul(rows, tn_plan_rows_of_tray(r, t), rows_at(r, left, tn_library_step(r->library, state, t)));
+        mpz_addmul(rank, rows, prefix);
+    }
+    mpz_clear(rows);
+}
+
+bool tn_plan_rows_rank(const tn_plan_rows *r, const tn_tray *trays, uint32_t length, const mpz_t *plans, mpz_t rank)
+{
+    if (!tn_library_has(r->library, trays, length))
+        return false;
+    mpz_t prefix, number;
+    uint32_t state = 0;
+    mpz_init_set_ui(prefix, 1);
+    mpz_init(number);
+    mpz_set(rank, r->before[length]);
+    for (uint32_t i = 0; i < length; i++) {
+        pass_trays(r, state, trays[i], length - i - 1, prefix, rank);
+        state = tn_library_step(r->library, state, trays[i]);
+        mpz_mul(prefix, prefix, tn_plan_rows_of_tray(r, trays[i]));
+        mpz_mul(number, number, tn_plan_rows_of_tray(r, trays[i]));
+        mpz_add(number, number, plans[i]);
+    }
+    mpz_add(rank, rank, number);
+    mpz_clears(prefix, number, NULL);
     return true;
 }

@@ -19,11 +19,18 @@ void tn_plan_rows_free(tn_plan_rows *rows);
 /* Rows of plans of one length, or (TN_ALL_LENGTHS) of all. `count` is initialised. */
 void tn_plan_rows_count(const tn_plan_rows *rows, uint32_t length, mpz_t count);
 
+/* Those of the lengths below: the first rank of a length of the library's (TN_ALL_LENGTHS: of all, 0). */
+void tn_plan_rows_before(const tn_plan_rows *rows, uint32_t length, mpz_t before);
+
 /* For how many plans a tray stands. */
 mpz_srcptr tn_plan_rows_of_tray(const tn_plan_rows *rows, tn_tray tray);
 
 /* The row of plans of a rank: its trays (room for tn_library_max), and of each the number of its plan among those that
  * the tray stands for, from 0 (initialised, as many). false where there are no so many. */
 bool tn_plan_rows_unrank(const tn_plan_rows *rows, const mpz_t rank, tn_tray *trays, uint32_t *length, mpz_t *plans);
+
+/* The rank of a row of plans, whose numbers are of plans that its trays stand for. false: the library has no such row
+ * of trays. */
+bool tn_plan_rows_rank(const tn_plan_rows *rows, const tn_tray *trays, uint32_t length, const mpz_t *plans, mpz_t rank);
 
 #endif

@@ -1,13 +1,9 @@
-/* The joint distribution of a library by any number of measures: which values its plans have together, exactly.
- *
- * Each measure has its own automaton joined with the library's; a state is one of each. So what measures remember is
- * multiplied only as far as plans of the library do. */
+/* The joint distribution of a library by any number of measures: which values its plans have together, exactly. */
 #ifndef TARTAN_PLAN_MEASURE_CROSSTAB_H
 #define TARTAN_PLAN_MEASURE_CROSSTAB_H
 
-#include "runtime/plan/library/library.h"
+#include "runtime/plan/measure/bundle.h"
 
-#define TN_CROSSTAB_MEASURES_MAX 32u
 #define TN_CROSSTAB_VALUES_MAX 200000u /* pairs of a state and values, of the plans of one length */
 
 typedef struct tn_crosstab_row {
@@ -26,10 +22,10 @@ typedef struct tn_crosstab {
     size_t numbers;
 } tn_crosstab;
 
-/* measures: of the library (named.h). most: of what is held at a time; 0: TN_CROSSTAB_VALUES_MAX; E0832 past it.
- * Otherwise as tn_weighed_new. Clear in any case. */
-tn_status tn_crosstab_make(tn_crosstab *table, const tn_library *library, const uint32_t *measures, uint32_t count,
-                           size_t most, tn_error *error);
+/* most: of what is held at a time; 0: TN_CROSSTAB_VALUES_MAX; E0832 past it. Otherwise as tn_bundle_new. Clear in any
+ * case. */
+tn_status tn_crosstab_make(tn_crosstab *table, const tn_library *library, const tn_bundle_measure *measures,
+                           uint32_t count, size_t most, tn_error *error);
 void tn_crosstab_clear(tn_crosstab *table);
 
 #endif

@@ -102,24 +102,56 @@ static tn_status check_measure_names(const tn_checker *checker)
     return status;
 }
 
-/* A measure is of the plan, which nothing lies before or behind. */
-static tn_status check_measure_sum(const tn_checker *checker, size_t i, uint32_t index)
+/* A sum of plans of the schema, which nothing lies before or behind. what, i: whose it is. */
+static tn_status check_sum_of_plans(const tn_checker *checker, const char *what, size_t i, uint32_t schema,
+                                    uint32_t index)
 {
     const tn_module *module = checker->module;
     const tn_sum_record *sum = &module->SUM_records[index];
-    if (sum->schema != module->MEASURE_records[i].schema)
-        return tn_refuse(checker, "measure %zu names a sum of another schema", i);
+    if (sum->schema != schema)
+        return tn_refuse(checker, "%s %zu names a sum of another schema", what, i);
     for (uint32_t t = 0; t < sum->term_count; t++)
         if (tn_term_region(module->TERM_records[sum->term_first + t].kind) != TN_REGION_STRETCH)
-            return tn_refuse(checker, "measure %zu counts what lies around a stretch", i);
+            return tn_refuse(checker, "%s %zu counts what lies around a stretch", what, i);
     return TN_OK;
 }
 
 static tn_status check_measure(const tn_checker *checker, size_t i)
 {
     const tn_measure_record *measure = &checker->module->MEASURE_records[i];
-    tn_status status = check_measure_sum(checker, i, measure->sum);
-    return status == TN_OK && measure->over != TN_NO_RECORD ? check_measure_sum(checker, i, measure->over) : status;
+    tn_status status = check_sum_of_plans(checker, "measure", i, measure->schema, measure->sum);
+    return status == TN_OK && measure->over != TN_NO_RECORD
+               ? check_sum_of_plans(checker, "measure", i, measure->schema, measure->over)
+               : status;
+}
+
+/* The schema that a field is of: their fields follow one another. */
+static const tn_schema_record *schema_of_field(const tn_module *module, uint32_t field)
+{
+    size_t low = 0, high = module->SCHEMA_count;
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+        if (module->SCHEMA_records[middle].field_first <= field)
+            low = middle;
+        else
+            high = middle;
+    }
+    return &module->SCHEMA_records[low];
+}
+
+/* What a field is of a plan is a sum over plans of the library that its schema is of. */
+static tn_status check_said(const tn_checker *checker, size_t i)
+{
+    const tn_module *module = checker->module;
+    const tn_said_record *said = &module->SAID_records[i];
+    uint32_t of = schema_of_field(module, said->field)->of;
+    if (of == TN_NO_RECORD)
+        return tn_refuse(checker, "field %u says something of plans, and its schema is of no library", said->field);
+    uint32_t schema = module->LIBRARY_records[of].schema;
+    tn_status status = check_sum_of_plans(checker, "said field", i, schema, said->sum);
+    return status == TN_OK && said->over != TN_NO_RECORD
+               ? check_sum_of_plans(checker, "said field", i, schema, said->over)
+               : status;
 }
 
 /* A weight counts single trays of plans of the library's schema; its factor is above 0. */
@@ -180,6 +212,8 @@ static tn_status verify(const tn_checker *checker)
         status = check_leanings(checker);
     for (size_t i = 0; status == TN_OK && i < checker->module->MEASURE_count; i++)
         status = check_measure(checker, i);
+    for (size_t i = 0; status == TN_OK && i < checker->module->SAID_count; i++)
+        status = check_said(checker, i);
     return status == TN_OK ? check_measure_names(checker) : status;
 }
 
@@ -281,9 +315,29 @@ static void list_extent(tn_lister *lister, const tn_instruction *instruction)
     tn_list_name(lister, lister->module->FIELD_records[instruction->first].name);
 }
 
+static void list_said(tn_lister *lister)
+{
+    const tn_module *module = lister->module;
+    if (module->SAID_count > 0)
+        fputs("\nwhat fields say of plans\n", lister->out);
+    for (size_t i = 0; i < module->SAID_count; i++) {
+        const tn_said_record *said = &module->SAID_records[i];
+        fprintf(lister->out, "  field %u  ", said->field);
+        tn_list_name(lister, module->FIELD_records[said->field].name);
+        fputs(": ", lister->out);
+        tn_list_sum(lister, said->sum);
+        if (said->over != TN_NO_RECORD) {
+            fputs(" over ", lister->out);
+            tn_list_sum(lister, said->over);
+        }
+        fputc('\n', lister->out);
+    }
+}
+
 static void list(tn_lister *lister)
 {
     const tn_module *module = lister->module;
+    list_said(lister);
     if (module->MEASURE_count > 0)
         fputs("\nmeasures\n", lister->out);
     for (size_t i = 0; i < module->MEASURE_count; i++) {
@@ -307,8 +361,8 @@ static void list_heading(tn_lister *lister, uint32_t function)
     tn_list_name(lister, lister->module->SCHEMA_records[lister->module->FUNCTION_records[function].schema].name);
 }
 
-static const tn_section sections[] = {TN_SECTION_SUM,    TN_SECTION_TERM,       TN_SECTION_MEASURE,
-                                      TN_SECTION_WEIGHT, TN_SECTION_PREFERENCE, TN_SECTION_STRINGS};
+static const tn_section sections[] = {TN_SECTION_SUM,        TN_SECTION_TERM, TN_SECTION_MEASURE, TN_SECTION_WEIGHT,
+                                      TN_SECTION_PREFERENCE, TN_SECTION_SAID, TN_SECTION_STRINGS};
 
 static const tn_operand_rules operands[] = {
     {TN_OPERANDS_SUMMED, check_summed, list_summed},
