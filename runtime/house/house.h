@@ -59,8 +59,8 @@ typedef struct tn_house_known {
 typedef struct tn_face_view tn_face_view; /* runtime/house/ways.h */
 
 /* views: of a house that is a part of another, so that cells beside its own are not there: what its faces lead to
- * ([faces], borrowed), or NULL. ways_unknown: what is beside cells is not known, so that nothing is asked about ways.
- */
+ * ([faces], borrowed), or NULL. ways_unknown: what is beside cells is not known, so that nothing is asked about ways,
+ * and flights stand where there is room. */
 typedef struct tn_house {
     const tn_house_form *form;
     tn_tray *trays;

@@ -446,11 +446,27 @@ static tn_status place_from(tn_stack *k, size_t flight, bool *placed, tn_error *
     return status;
 }
 
+/* What is around the cells is not known: each flight stands in the first place with room between the planes of walls.
+ * How large its steps and its hole are is the same in all its places, but for flights that turn a quarter. */
+static bool place_by_size(tn_stack *k)
+{
+    tn_flight_shape s;
+    bool placed = true;
+    for (size_t i = 0; i <= k->flights; i++)
+        k->floors[i].clear = k->house->cells[k->lowest + i].at;
+    for (size_t flight = 0; placed && flight < k->flights; flight++) {
+        placed = false;
+        for (size_t number = 0; !placed && number < PLACES; number++)
+            placed = place_at(k, flight, number, &k->places[flight], &s);
+    }
+    return placed;
+}
+
 static tn_status place_all(const tn_house *house, uint32_t lowest, tn_stack *k, bool *placed, tn_error *error)
 {
     tn_status status = begin_stack(house, lowest, k, error);
-    *placed = false;
-    return status == TN_OK ? place_from(k, 0, placed, error) : status;
+    *placed = status == TN_OK && house->ways_unknown && place_by_size(k);
+    return status == TN_OK && !house->ways_unknown ? place_from(k, 0, placed, error) : status;
 }
 
 tn_status tn_stack_fits(const tn_house *house, uint32_t lowest, bool *fits, const tn_face **flight, tn_error *error)

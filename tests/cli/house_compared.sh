@@ -5,27 +5,38 @@ name=house_compared
 . "$(dirname "$0")/golden.bash"
 
 cd "$files"
-"$TARTAN" enumerate priced.plan -l barns | awk 'NR % 20 == 1' >"$scratch/some"
 
-# numbers CONDITION: houses of the interpreter, plan by plan, and counted together
+# numbers FILE LIBRARY CONDITION: houses of the interpreter, plan by plan, and counted together
 numbers() {
-    sed '/^use/!b' priced.plan >"$scratch/one.plan"
-    printf 'rule asked = %s\n' "$1" >>"$scratch/one.plan"
+    cp "$1" "$scratch/one.plan"
+    printf 'rule asked = %s\n' "$3" >>"$scratch/one.plan"
     "$TARTAN" match "$scratch/one.plan" "$scratch/some" --rule asked --format bits 2>/dev/null | paste - "$scratch/some" |
         sed -n 's/^1\t//p' >"$scratch/matched"
-    "$TARTAN" enumerate priced.plan -l barns --where "$1" >"$scratch/listed"
+    "$TARTAN" enumerate "$1" -l "$2" --where "$3" >"$scratch/listed"
     grep -Fx -f "$scratch/listed" "$scratch/some" >"$scratch/wanted" || true # perhaps none
     cmp -s "$scratch/matched" "$scratch/wanted" && echo 'the same houses' || echo 'other houses'
-    "$TARTAN" count priced.plan -l barns --where "$1" --by floors --json |
+    "$TARTAN" count "$1" -l "$2" --where "$3" --by floors --json |
         python3 -c 'import json, sys; print(json.load(sys.stdin)["houses"])'
     wc -l <"$scratch/listed"
 }
 
-while read -r condition; do
-    mapfile -t seen < <(numbers "$condition")
-    is "$condition: engines" "${seen[0]}" 'the same houses'
-    is "$condition: together" "${seen[1]}" "${seen[2]}"
-done <<'END'
+# compared FILE LIBRARY: with the conditions of standard input, one a line
+compared() {
+    local condition
+    "$TARTAN" enumerate "$1" -l "$2" | awk 'NR % 20 == 1' >"$scratch/some"
+    while read -r condition; do
+        mapfile -t seen < <(numbers "$1" "$2" "$condition")
+        is "$condition: engines" "${seen[0]}" 'the same houses'
+        is "$condition: together" "${seen[1]}" "${seen[2]}"
+    done
+}
+
+compared climbed.plan climbs <<'END'
+price <= 16254
+price in 17014..17016
+price = 17014.92
+END
+compared priced.plan barns <<'END'
 price <= 44000
 price < 20000 or price > 55000
 price in 40000..46000

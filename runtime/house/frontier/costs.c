@@ -662,10 +662,9 @@ static tn_status check_openings(const tn_frontier *frontier, tn_error *error)
         if (opening->turn != TN_TURN_NONE && is_priced(form, TN_OF_DECK, BY_NUMBER))
             return refuse(frontier, "flights cut decks in pieces, and these have a price each",
                           "give the price of decks per area, or per volume", error);
-        if (opening->turn != TN_TURN_NONE && tn_form_asks_ways(form) &&
-            (is_priced(form, TN_OF_DECK, BY_ANY) || is_priced(form, TN_OF_COUNT + i, BY_ANY)))
-            return refuse(frontier, "where a flight stands depends on the doors of all trays around it",
-                          "give neither decks nor flights a price, or ask nothing about costs", error);
+        if (opening->turn == TN_TURN_QUARTER && tn_form_asks_ways(form) && is_priced(form, TN_OF_DECK, BY_ANY))
+            return refuse(frontier, "how large the hole above a flight that turns a quarter is depends on its place",
+                          "give decks no price, or ask nothing about costs", error);
         if (opening->turn == TN_TURN_QUARTER && is_priced(form, TN_OF_COUNT + i, BY_VOLUME))
             return refuse(frontier, "a flight that turns a quarter has a price per volume",
                           "give its price per area, or for each", error);
@@ -784,8 +783,10 @@ static tn_status keyed_cost(tn_frontier *frontier, tn_frontier_keyed *known, con
     tn_status status = TN_OK;
     if (at == before) {
         mpq_t cost;
+        tn_house part = *house;
+        part.ways_unknown = true; /* flights cost the same in all their places */
         mpq_init(cost);
-        status = tn_house_exact_cost(house, tn_house_shell, cost, error);
+        status = tn_house_exact_cost(&part, tn_house_shell, cost, error);
         if (left)
             mpq_sub(cost, cost, p->exact[left->cost]);
         if (right)
