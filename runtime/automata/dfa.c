@@ -189,6 +189,7 @@ typedef struct tn_product {
     uint32_t settled_a, settled_b; /* operand states that decide */
     tn_join join;
     tn_numbering pairs;
+    tn_depth depth;
     uint32_t *delta; /* [pairs][columns], grows */
     size_t capacity; /* rows of delta */
 } tn_product;
@@ -215,8 +216,7 @@ static uint8_t product_accepts(const tn_product *product, uint64_t pair)
     }
 }
 
-/* over: no longer word matters. */
-static tn_status product_row(tn_product *product, uint32_t state, bool over, tn_error *error)
+static tn_status product_row(tn_product *product, uint32_t state, tn_error *error)
 {
     uint32_t columns = product->join.columns;
     if (!tn_array_reserve_from(&product->delta, &product->capacity, 32, state, 1, columns * sizeof *product->delta))
@@ -227,9 +227,9 @@ static tn_status product_row(tn_product *product, uint32_t state, bool over, tn_
     const uint32_t *b = product->b->delta + (size_t)(uint32_t)pair * product->b->columns;
     for (uint32_t c = 0; c < columns; c++) {
         const uint32_t *pick = product->join.pick + (size_t)c * 2;
-        row[c] =
-            over || pair == SETTLED ? state : tn_number(&product->pairs, product_pair(product, a[pick[0]], b[pick[1]]));
-        if (row[c] == UINT32_MAX)
+        bool stays = pair == SETTLED || tn_depth_over(&product->depth, state, c);
+        row[c] = stays ? state : tn_number(&product->pairs, product_pair(product, a[pick[0]], b[pick[1]]));
+        if (row[c] == UINT32_MAX || !tn_depth_found(&product->depth, state, c, row[c]))
             return tn_fail_memory(error);
     }
     return TN_OK;
@@ -237,11 +237,11 @@ static tn_status product_row(tn_product *product, uint32_t state, bool over, tn_
 
 static tn_status product_explore(tn_product *product, const char *what, tn_bounds *bounds, tn_error *error)
 {
-    if (tn_number(&product->pairs, product_pair(product, 0, 0)) == UINT32_MAX)
+    if (tn_number(&product->pairs, product_pair(product, 0, 0)) == UINT32_MAX ||
+        !tn_depth_begin(&product->depth, bounds, product->join.column, product->join.letters))
         return tn_fail_memory(error);
-    tn_depth depth = tn_depth_begin(bounds);
     for (uint32_t s = 0; s < product->pairs.count; s++) {
-        tn_status status = product_row(product, s, tn_depth_over(&depth, s, product->pairs.count), error);
+        tn_status status = product_row(product, s, error);
         if (status == TN_OK)
             status = tn_bounds_check(bounds, what, product->pairs.count, product->join.columns, product->join.columns,
                                      error);
@@ -251,7 +251,7 @@ static tn_status product_explore(tn_product *product, const char *what, tn_bound
     return TN_OK;
 }
 
-static tn_status product_finish(const tn_product *product, tn_dfa **out, tn_error *error)
+static tn_status product_finish(const tn_product *product, tn_bounds *bounds, tn_dfa **out, tn_error *error)
 {
     uint32_t states = product->pairs.count;
     tn_dfa *dfa = tn_dfa_new(product->join.letters, product->join.columns, states);
@@ -261,7 +261,7 @@ static tn_status product_finish(const tn_product *product, tn_dfa **out, tn_erro
     memcpy(dfa->delta, product->delta, (size_t)states * dfa->columns * sizeof *dfa->delta);
     for (uint32_t s = 0; s < states; s++)
         dfa->accept[s] = product_accepts(product, product->pairs.keys[s]);
-    tn_status status = tn_dfa_minimise(dfa, 0, out, error);
+    tn_status status = tn_cover_minimise(dfa, bounds, out, error);
     tn_dfa_free(dfa);
     return status;
 }
@@ -279,9 +279,10 @@ tn_status tn_dfa_product(const tn_dfa *a, const tn_dfa *b, tn_dfa_operation oper
     if (status == TN_OK)
         status = product_explore(&product, what, bounds, error);
     if (status == TN_OK)
-        status = product_finish(&product, out, error);
+        status = product_finish(&product, bounds, out, error);
     tn_join_clear(&product.join);
     tn_numbering_clear(&product.pairs);
+    tn_depth_clear(&product.depth);
     free(product.delta);
     return status;
 }

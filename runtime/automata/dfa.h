@@ -34,7 +34,8 @@ typedef struct tn_bounds {
     uint64_t max_words;       /* of 32 bits, in the sets that name the states of a subset construction */
     uint64_t max_work;        /* elementary steps in all */
     uint64_t work;
-    uint32_t longest; /* constructions may be wrong of words with more letters, and so need fewer states; 0: of none */
+    uint32_t longest; /* letters of the longest word that is asked about (see below); 0: words of any length are */
+    uint32_t letters; /* of the alphabet, if there is a longest word: an automaton with one more has a marker */
     tn_watch *watch;  /* or NULL: gives up (TN_STOPPED) once this says so */
 } tn_bounds;
 
@@ -46,28 +47,6 @@ tn_bounds tn_bounds_make(uint32_t max_states);
  * them; or TN_STOPPED. */
 tn_status tn_bounds_check(tn_bounds *bounds, const char *what, uint64_t states, uint64_t columns, uint64_t work,
                           tn_error *error);
-
-/* The layers in which a construction finds its states: those of a layer are as many letters from the start. */
-typedef struct tn_depth {
-    uint32_t to_go; /* layers behind this one */
-    uint32_t end;   /* of this one: its last state + 1 */
-} tn_depth;
-
-static inline tn_depth tn_depth_begin(const tn_bounds *bounds)
-{
-    return (tn_depth){bounds->longest ? bounds->longest : UINT32_MAX, 1};
-}
-
-/* The state is the next to be gone on from, and `count` are found. Is whatever follows it too long? Then it may lead to
- * itself. */
-static inline bool tn_depth_over(tn_depth *depth, uint32_t state, uint32_t count)
-{
-    if (state == depth->end) {
-        depth->end = count;
-        depth->to_go--;
-    }
-    return depth->to_go == 0;
-}
 
 /* Room for an automaton, zeroed, one holder; NULL where out of memory. */
 tn_dfa *tn_dfa_new(uint32_t letters, uint32_t columns, uint32_t states);
@@ -119,5 +98,48 @@ typedef struct tn_join {
 tn_status tn_join_make(tn_join *join, const tn_dfa *const *parts, uint32_t count, uint32_t letters,
                        const uint32_t *extra, bool apart, tn_error *error);
 void tn_join_clear(tn_join *join);
+
+/* ---- short words
+ *
+ * If only words up to a length are asked about (`longest` of tn_bounds), automata become cover automata (Campeanu,
+ * Santean, Yu: Minimal cover-automata for finite languages, 2001): a construction goes on from a state only while a
+ * word that leads there may have another letter, and what it makes is merged as far as short words do not tell apart
+ * (cover.c). A counter then needs no states for numbers that no short word reaches, nor for those whose outcome the
+ * letters that may still come cannot change. Markers (marked.h) are no letters here. Of longer words such an automaton
+ * may say anything. */
+
+/* How many letters the shortest words have that lead to the states of a construction, which finds them breadth first.
+ * All words that lead to a live state have as many markers (marked.h), so that a state is first found by a word with
+ * the fewest letters. Zero it, and free with tn_depth_clear. */
+typedef struct tn_depth {
+    uint32_t longest; /* letters of a word; 0: any number, and nothing is kept */
+    uint32_t marker;  /* its column, or TN_NO_STATE */
+    uint32_t *letters;
+    uint32_t count;
+    size_t capacity;
+} tn_depth;
+
+/* column: of each letter that the construction reads. False: out of memory. */
+bool tn_depth_begin(tn_depth *depth, const tn_bounds *bounds, const uint32_t *column, uint32_t letters);
+void tn_depth_clear(tn_depth *depth);
+
+/* Does no word matter that goes on from the state by this column? Then it may lead anywhere. */
+static inline bool tn_depth_over(const tn_depth *depth, uint32_t state, uint32_t column)
+{
+    return depth->longest > 0 && column != depth->marker && depth->letters[state] >= depth->longest;
+}
+
+bool tn_depth_add(tn_depth *depth, uint32_t letters);
+
+/* A column of one state leads to another: new ones have the next number. False: out of memory. */
+static inline bool tn_depth_found(tn_depth *depth, uint32_t from, uint32_t column, uint32_t to)
+{
+    return depth->longest == 0 || to < depth->count ||
+           tn_depth_add(depth, depth->letters[from] + (column != depth->marker));
+}
+
+/* As tn_dfa_minimise from state 0, or, if the bounds say how long words are, an automaton with as few states or fewer
+ * that accepts the same of those words. */
+tn_status tn_cover_minimise(const tn_dfa *dfa, tn_bounds *bounds, tn_dfa **out, tn_error *error);
 
 #endif

@@ -10,33 +10,39 @@ typedef struct tn_explorer {
     const tn_construction *construction;
     tn_interner keys;
     tn_key current, next;
+    tn_depth depth;
     uint32_t *delta; /* [states][columns], grows */
     size_t capacity; /* rows */
 } tn_explorer;
 
-/* over: no longer word matters. */
-static bool explorer_row(tn_explorer *explorer, uint32_t state, bool over)
+/* The state that a column leads to; UINT32_MAX: out of memory. */
+static uint32_t explorer_step(tn_explorer *explorer, uint32_t state, uint32_t column)
 {
     const tn_construction *construction = explorer->construction;
-    uint32_t columns = construction->join->columns;
-    if (!tn_array_reserve_from(&explorer->delta, &explorer->capacity, 32, state, 1, columns * sizeof *explorer->delta))
-        return false;
-    for (uint32_t c = 0; over && c < columns; c++)
-        explorer->delta[(size_t)state * columns + c] = state;
-    if (over)
-        return true;
+    const tn_key *current = &explorer->current;
+    explorer->next.size = 0;
+    if (tn_depth_over(&explorer->depth, state, column))
+        return state;
+    if (!construction->step(construction->context, current->data, current->size, column, &explorer->next))
+        return UINT32_MAX;
+    uint32_t to = tn_intern(&explorer->keys, explorer->next.data, explorer->next.size);
+    return to != UINT32_MAX && tn_depth_found(&explorer->depth, state, column, to) ? to : UINT32_MAX;
+}
+
+static bool explorer_row(tn_explorer *explorer, uint32_t state)
+{
+    uint32_t columns = explorer->construction->join->columns;
     size_t size;
     const uint32_t *key = tn_interned(&explorer->keys, state, &size);
-    if (!tn_key_copy(&explorer->current, key, size))
+    if (!tn_array_reserve_from(&explorer->delta, &explorer->capacity, 32, state, 1,
+                               columns * sizeof *explorer->delta) ||
+        !tn_key_copy(&explorer->current, key, size))
         return false;
+    uint32_t *row = explorer->delta + (size_t)state * columns;
     for (uint32_t c = 0; c < columns; c++) {
-        explorer->next.size = 0;
-        if (!construction->step(construction->context, explorer->current.data, size, c, &explorer->next))
+        row[c] = explorer_step(explorer, state, c);
+        if (row[c] == UINT32_MAX)
             return false;
-        uint32_t to = tn_intern(&explorer->keys, explorer->next.data, explorer->next.size);
-        if (to == UINT32_MAX)
-            return false;
-        explorer->delta[(size_t)state * columns + c] = to;
     }
     return true;
 }
@@ -57,16 +63,17 @@ static tn_status explorer_run(tn_explorer *explorer, const tn_key *start, const 
                               tn_error *error)
 {
     const tn_construction *construction = explorer->construction;
-    uint32_t columns = construction->join->columns;
-    tn_status status = tn_bounds_check(bounds, construction->what, 1, columns, construction->join->letters, error);
-    if (status == TN_OK && tn_intern(&explorer->keys, start->data, start->size) == UINT32_MAX)
+    const tn_join *join = construction->join;
+    uint32_t columns = join->columns;
+    tn_status status = tn_bounds_check(bounds, construction->what, 1, columns, join->letters, error);
+    if (status == TN_OK && (tn_intern(&explorer->keys, start->data, start->size) == UINT32_MAX ||
+                            !tn_depth_begin(&explorer->depth, bounds, join->column, join->letters)))
         status = tn_fail_memory(error);
     if (status != TN_OK)
         return status;
-    tn_depth depth = tn_depth_begin(bounds);
     for (uint32_t s = 0; s < explorer->keys.count; s++) {
         uint64_t before = effort ? *effort : 0;
-        if (!explorer_row(explorer, s, tn_depth_over(&depth, s, explorer->keys.count)))
+        if (!explorer_row(explorer, s))
             return tn_fail_memory(error);
         uint64_t work = (uint64_t)(explorer->current.size + 1) * columns + (effort ? *effort - before : 0);
         status = tn_bounds_check(bounds, construction->what, explorer->keys.count, columns, work, error);
@@ -78,7 +85,7 @@ static tn_status explorer_run(tn_explorer *explorer, const tn_key *start, const 
     return TN_OK;
 }
 
-static tn_status explorer_finish(const tn_explorer *explorer, tn_dfa **out, tn_error *error)
+static tn_status explorer_finish(const tn_explorer *explorer, tn_bounds *bounds, tn_dfa **out, tn_error *error)
 {
     const tn_construction *construction = explorer->construction;
     const tn_join *join = construction->join;
@@ -92,7 +99,7 @@ static tn_status explorer_finish(const tn_explorer *explorer, tn_dfa **out, tn_e
         const uint32_t *key = tn_interned(&explorer->keys, s, &size);
         dfa->accept[s] = construction->accepts(construction->context, key, size);
     }
-    tn_status status = tn_dfa_minimise(dfa, 0, out, error);
+    tn_status status = tn_cover_minimise(dfa, bounds, out, error);
     tn_dfa_free(dfa);
     return status;
 }
@@ -103,8 +110,9 @@ tn_status tn_explore(const tn_construction *construction, const tn_key *start, c
     tn_explorer explorer = {.construction = construction};
     tn_status status = explorer_run(&explorer, start, effort, bounds, error);
     if (status == TN_OK)
-        status = explorer_finish(&explorer, out, error);
+        status = explorer_finish(&explorer, bounds, out, error);
     tn_interner_clear(&explorer.keys);
+    tn_depth_clear(&explorer.depth);
     free(explorer.current.data);
     free(explorer.next.data);
     free(explorer.delta);

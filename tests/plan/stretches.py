@@ -225,6 +225,37 @@ library lefts { trays 0..5 require neighbour(tray(1m), left) prune neighbour(few
             faults.append("fractions, %s: %s, and not %s: %s" % (library, found, wanted, done.stderr[-1500:]))
 
 
+def remainders(folder):
+    """Stretches that end and begin by remainders of counts: few letters are read before a limit of states, and many states are alike."""
+    trays = list(itertools.product((1, 2), "abc", (False, True)))
+    path = os.path.join(folder, "remainders.plan")
+    with open(path, "w") as out:
+        out.write("""schema part { width = 1m | 2m  use = a | b | c  lit = flag }
+rule pair = symmetric neighbour(tray(lit), tray(lit, 2m))
+rule parted = symmetric neighbour(pair, quantity(tray(2m), n mod 3 = 1), optional(quantity(tray(c), n mod 3 = 1)))
+library short { trays 0..3 require parted }
+""")
+
+    def pair(p, i, j):
+        return j - i == 2 and p[i][2] and p[i + 1][2] and (p[i][0] == 2 or p[i + 1][0] == 2)
+
+    def counted(p, i, j, chosen):
+        return i < j and sum(map(chosen, p[i:j])) % 3 == 1
+
+    def ordered(p, i, j):
+        return any(pair(p, i, c) and counted(p, c, d, lambda t: t[0] == 2) and (d == j or counted(p, d, j, lambda t: t[1] == "c"))
+                   for c in range(i + 1, j) for d in range(c + 1, j + 1))
+
+    def parted(p):
+        return any(ordered(q, i, j) for q in (p, p[::-1]) for i in range(len(p)) for j in range(i + 1, len(p) + 1))
+
+    wanted = [sum(map(parted, itertools.product(trays, repeat=n))) for n in range(4)]
+    done = subprocess.run([tartan, "count", path, "--json", "--no-effects"], capture_output=True, text=True)
+    found = [int(row["kept"]) for row in json.loads(done.stdout or '{"by_length": []}')["by_length"]]
+    if found != wanted:
+        faults.append("remainders: %s, and not %s: %s" % (found, wanted, done.stderr[-1500:]))
+
+
 RULES = 3  # a case, and one that uses itself
 STATES = 10, 16, 24, 40  # few, so that automata for every length often have more
 faults, between, unanswered, short, made = [], 0, 0, 0, 0
@@ -276,6 +307,7 @@ def run():
     global between
     with tempfile.TemporaryDirectory() as folder:
         fractions(folder)
+        remainders(folder)
         for seed in range(first, last):
             between += check(seed, folder, plans, lines)
 

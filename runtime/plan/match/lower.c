@@ -22,9 +22,6 @@ typedef struct tn_lowered {
     tn_error *error; /* why it failed; NULL otherwise */
 } tn_lowered;
 
-/* Words of automata have a letter for each tray, and markers: two for a stretch, and at most two stretches. */
-#define MARKERS_MAX 4u
-
 /* All rules of a lowering together may take this many times the work of one. */
 #define RULES_WORK 8
 
@@ -52,6 +49,7 @@ tn_status tn_lowering_new(const tn_classes *classes, uint32_t max_states, tn_low
     lowering->module = classes->schema->module;
     lowering->classes = classes;
     lowering->bounds = tn_bounds_make(max_states ? max_states : TN_STATES_DEFAULT);
+    lowering->bounds.letters = classes->count;
     lowering->bounds.watch = lowering->module->watch;
     lowering->lowered = calloc(lowering->module->FUNCTION_count * FORM_COUNT + 1, sizeof *lowering->lowered);
     lowering->local = calloc(lowering->module->FUNCTION_count + 1, 1);
@@ -458,7 +456,7 @@ static tn_status lower_wanted(tn_lowering *lowering, uint32_t wanted, tn_key *pe
 /* The same, for plans that are no longer than asked about. */
 static tn_status lower_within(tn_lowering *lowering, uint32_t wanted, tn_key *pending, tn_error *error)
 {
-    lowering->bounds.longest = lowering->max_trays + MARKERS_MAX;
+    lowering->bounds.longest = lowering->max_trays;
     tn_status status = lower_wanted(lowering, wanted, pending, error);
     lowering->bounds.longest = 0;
     return status;

@@ -274,6 +274,78 @@ static void products_stop_at_their_bounds(void **state)
     tn_dfa_free(b);
 }
 
+/* The letters of the shortest word to each state: UINT32_MAX, none. */
+static void find_levels(const tn_dfa *dfa, uint32_t *level)
+{
+    for (uint32_t s = 0; s < dfa->states; s++)
+        level[s] = s == 0 ? 0 : UINT32_MAX;
+    for (uint32_t letters = 0; letters < dfa->states; letters++)
+        for (uint32_t s = 0; s < dfa->states; s++)
+            for (uint32_t l = 0; level[s] == letters && l < dfa->letters; l++) {
+                uint32_t *to = &level[tn_dfa_read(dfa, s, l)];
+                *to = *to < letters + 1 ? *to : letters + 1;
+            }
+}
+
+/* Does some word of at most so many letters lead from one state to acceptance, and from the other not? */
+static bool told_apart(const tn_dfa *a, uint32_t p, const tn_dfa *b, uint32_t q, uint32_t letters)
+{
+    if (a->accept[p] != b->accept[q])
+        return true;
+    bool apart = false;
+    for (uint32_t l = 0; letters > 0 && !apart && l < a->letters; l++)
+        apart = told_apart(a, tn_dfa_read(a, p, l), b, tn_dfa_read(b, q, l), letters - 1);
+    return apart;
+}
+
+/* Of two states that short words lead to, some short word tells apart what follows. The state that accepts nothing is
+ * one more. */
+static void check_dissimilar(const tn_dfa *dfa, uint32_t longest)
+{
+    uint32_t level[64];
+    assert_true(dfa->states <= 64);
+    find_levels(dfa, level);
+    uint32_t nothing = tn_dfa_sink(dfa, 0);
+    for (uint32_t p = 0; p < dfa->states; p++)
+        for (uint32_t q = 0; q < p; q++) {
+            uint32_t most = level[p] > level[q] ? level[p] : level[q];
+            if (most <= longest && p != nothing && q != nothing)
+                assert_true(told_apart(dfa, p, dfa, q, longest - most));
+        }
+}
+
+static void covers_are_right_of_short_words(void **state)
+{
+    (void)state;
+    test_random random = {.seed = 19};
+    uint32_t fewer = 0;
+    for (int round = 0; round < 1500; round++) {
+        uint32_t letters = 1 + test_random_below(&random, 3), longest = 1 + test_random_below(&random, 5);
+        tn_bounds bounds = tn_bounds_make(1000);
+        bounds.longest = longest;
+        bounds.letters = letters;
+        tn_dfa *raw[2], *d[2], *cover, *both;
+        for (int i = 0; i < 2; i++) {
+            raw[i] = random_dfa(&random, letters, 1 + test_random_below(&random, 20));
+            d[i] = minimise(raw[i]);
+        }
+        assert_int_equal(tn_cover_minimise(raw[0], &bounds, &cover, NULL), TN_OK);
+        assert_false(told_apart(cover, 0, raw[0], 0, longest));
+        assert_true(cover->states <= d[0]->states);
+        check_dissimilar(cover, longest);
+        fewer += cover->states < d[0]->states;
+        assert_int_equal(tn_dfa_product(cover, d[1], TN_DFA_MINUS, "test", &bounds, &both, NULL), TN_OK);
+        tn_dfa *exact = product(d[0], d[1], TN_DFA_MINUS);
+        assert_false(told_apart(both, 0, exact, 0, longest));
+        assert_true(both->states <= exact->states + 1);
+        check_dissimilar(both, longest);
+        tn_dfa *all[] = {raw[0], raw[1], d[0], d[1], cover, both, exact};
+        for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+            tn_dfa_free(all[i]);
+    }
+    assert_true(fewer > 100);
+}
+
 static void keys_are_numbered_in_order(void **state)
 {
     (void)state;
@@ -303,6 +375,7 @@ int main(void)
         cmocka_unit_test(sparse_products_are_the_same),
         cmocka_unit_test(halves_decide_palindromes),
         cmocka_unit_test(products_stop_at_their_bounds),
+        cmocka_unit_test(covers_are_right_of_short_words),
         cmocka_unit_test(keys_are_numbered_in_order),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
