@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "driver/grammar/grammar_report.h"
+#include "driver/house/analysis.h"
 #include "driver/plan/analysis.h"
 #include "runtime/base/watch.h"
 #include "runtime/load.h"
@@ -173,6 +174,7 @@ static void look_at_module(tn_review *review, tn_opened *opened)
     const tn_plan_analysis_options options = {.memory = review->workspace->memory};
     if (tn_plan_analyse(opened, &options, &analyses) == TN_OK)
         review->facts = tn_facts_new(opened->module, &analyses, review->workspace->memory);
+    tn_house_analyse(opened, 0);
     tn_plan_analyses_free(&analyses);
 }
 

@@ -45,16 +45,14 @@ static tn_status count_clause(const tn_compared_houses *c, int strict, tn_house_
 {
     const tn_compared_side *side = &c->sides[strict];
     tn_house_clause_record *clauses = malloc(((size_t)side->n.record->clause_count + 1) * sizeof *clauses);
-    tn_module module = *side->n.form.module; /* but for the clauses it is the same */
-    tn_house_library_record record = *side->n.record;
+    tn_other_clauses other;
     tn_numbered kept_out = {0};
     int which = strict == 1 ? 0 : 1;
     if (!clauses)
         return tn_fail_memory(error);
-    record.clause_first = 0;
-    record.clause_count = module.HOUSE_CLAUSE_count = gather_clauses(side, edit->clause[strict], clauses);
-    module.HOUSE_CLAUSE_records = clauses;
-    tn_numbered_other(&side->n, &module, &record, tn_library_diff_part(c->plans, TN_DIFF_KEPT), &kept_out);
+    tn_other_clauses_set(&side->n.form, side->n.record, clauses, gather_clauses(side, edit->clause[strict], clauses),
+                         &other);
+    tn_numbered_other(&side->n, &other.module, &other.library, tn_library_diff_part(c->plans, TN_DIFF_KEPT), &kept_out);
     tn_status status = count_all(c, &kept_out, NULL, edit->houses[which], error);
     if (status == TN_OK)
         status = tn_edit_sample(edit, which, &kept_out, options, error);

@@ -341,18 +341,14 @@ static tn_status tally_alone(const tn_numbered *n, const tn_plan *plan, house_ta
     uint32_t count = n->record->clause_count;
     const tn_house_clause_record *clauses = n->form.module->HOUSE_CLAUSE_records + n->record->clause_first;
     tn_house_clause_record *others = malloc(((size_t)count + 1) * sizeof *others);
-    tn_module module = *n->form.module; /* but for the clauses it is the same */
-    tn_house_library_record some = *n->record;
+    tn_other_clauses some;
     tn_status status = others ? TN_OK : tn_fail_memory(error);
-    module.HOUSE_CLAUSE_records = others;
-    module.HOUSE_CLAUSE_count = count;
-    some.clause_first = 0;
-    some.clause_count = count - (count > 0);
+    tn_other_clauses_set(&n->form, n->record, others, count - (count > 0), &some);
     for (uint32_t i = 0; status == TN_OK && i < count; i++) {
         for (uint32_t k = 0; k < count; k++)
             if (k != i)
                 others[k - (k > i)] = clauses[k];
-        status = count_by(n, &module, &some, plan, tally->alone[i], NULL, error);
+        status = count_by(n, &some.module, &some.library, plan, tally->alone[i], NULL, error);
         mpz_sub(tally->alone[i], tally->alone[i], tally->houses);
     }
     free(others);

@@ -84,14 +84,10 @@ static tn_status write_first(tn_numbered *some, char **example, tn_error *error)
 static tn_status count_kept(const relating *r, tn_house_clause_record *clauses, uint32_t count, mpz_t houses,
                             char **example, tn_error *error)
 {
-    tn_module module = *r->n.form.module; /* but for the clauses it is the same */
-    module.HOUSE_CLAUSE_records = clauses;
-    module.HOUSE_CLAUSE_count = count;
-    tn_house_library_record record = *r->n.record;
-    record.clause_first = 0;
-    record.clause_count = count;
+    tn_other_clauses other;
     tn_numbered some;
-    tn_numbered_other(&r->n, &module, &record, r->n.plans, &some);
+    tn_other_clauses_set(&r->n.form, r->n.record, clauses, count, &other);
+    tn_numbered_other(&r->n, &other.module, &other.library, r->n.plans, &some);
     tn_status status = count_houses(&some, houses, error);
     if (status == TN_OK && example && mpz_sgn(houses) > 0)
         status = write_first(&some, example, error);

@@ -4,6 +4,7 @@
 #include "ask/house/reported.h"
 #include "ask/session/made.h"
 #include "ask/session/questions.h"
+#include "driver/house/analysis.h"
 #include "driver/house/judge.h"
 #include "driver/report/kit_report.h"
 #include "driver/report/report.h"
@@ -96,6 +97,8 @@ static tn_status make_houses(reporting *r)
                                 .seed = r->request->seed};
     tn_plan_analyses analyses = {0};
     tn_status status = tn_plan_analyse(r->session->opened, &options, &analyses); /* its warnings are on the page */
+    if (status == TN_OK)
+        status = tn_house_analyse(r->session->opened, options.max_states);
     if (status == TN_OK)
         status = tn_report_houses(r->session, asked, &wanted, &r->page);
     tn_plan_analyses_free(&analyses);

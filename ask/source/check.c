@@ -7,6 +7,7 @@
 #include "ask/session/questions.h"
 #include "compiler/format.h"
 #include "driver/grammar/grammar_report.h"
+#include "driver/house/analysis.h"
 #include "driver/plan/analysis.h"
 #include "driver/plan/tests.h"
 #include "driver/solid/solid.h"
@@ -113,7 +114,7 @@ static tn_status analyse(tn_opened *opened, const tn_check_request *request, con
     }
     status = tn_plan_analyse(opened, &options, &analyses);
     tn_plan_analyses_free(&analyses);
-    return status;
+    return status == TN_OK ? tn_house_analyse(opened, (uint32_t)request->max_states) : status;
 }
 
 static tn_status find(tn_session *session, const tn_check_request *request, const tn_library *library)

@@ -4,37 +4,24 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "driver/house/counter.h"
 #include "runtime/module/code.h"
 
 struct tn_dependents {
-    const tn_module *module;
-    const tn_house_library_record *record;
-    tn_schema *schema;
-    tn_house_form form;
-    tn_library *plans;
-    uint32_t max_states;
-    uint64_t states_left; /* of all counts */
-    bool known;           /* `kept` is */
-    mpz_t kept;           /* houses of the library */
+    tn_house_counter counter;
+    bool known; /* `kept` is */
+    mpz_t kept; /* houses of the library */
 };
 
 tn_status tn_dependents_new(const tn_module *module, uint32_t library, uint32_t max_states, tn_dependents **dependents,
                             tn_error *error)
 {
-    const tn_library_options options = {.max_states = max_states};
     tn_dependents *d = *dependents = calloc(1, sizeof *d);
     if (!d)
         return tn_fail_memory(error);
-    d->module = module;
-    d->record = &module->HOUSE_LIBRARY_records[library];
-    d->max_states = max_states ? max_states : TN_DEPENDENTS_STATES;
-    d->states_left = (uint64_t)d->max_states * TN_DEPENDENTS_COUNTS;
     mpz_init(d->kept);
-    tn_status status = tn_schema_new(module, module->FORM_records[d->record->form].schema, 0, &d->schema, error);
-    if (status == TN_OK) {
-        tn_form_ready(module, d->record->form, d->schema, &d->form);
-        status = tn_library_new(d->schema, d->record->plans, &options, &d->plans, error);
-    }
+    tn_status status = tn_house_counter_open(module, library, max_states,
+                                             max_states ? max_states : TN_DEPENDENTS_STATES, &d->counter, error);
     if (status != TN_OK) {
         tn_dependents_free(d);
         *dependents = NULL;
@@ -47,8 +34,7 @@ void tn_dependents_free(tn_dependents *d)
     if (!d)
         return;
     mpz_clear(d->kept);
-    tn_library_free(d->plans);
-    tn_schema_free(d->schema);
+    tn_house_counter_close(&d->counter);
     free(d);
 }
 
@@ -127,41 +113,6 @@ static tn_status sort_clauses(const tn_module *module, const tn_house_library_re
     return TN_OK;
 }
 
-static tn_status past_limit(tn_error *error)
-{
-    tn_fail(error, TN_LIMIT, E_FRONTIER, "counting the houses that depend on parts of rules takes too many states");
-    tn_error_help(error, "--max-states N allows more; a library on plans of fewer trays takes fewer");
-    return TN_LIMIT;
-}
-
-/* How many houses these clauses keep, with or without the part. */
-static tn_status count_kept(tn_dependents *d, tn_house_clause_record *clauses, uint32_t count,
-                            const tn_frontier_without *without, mpz_t houses, tn_error *error)
-{
-    tn_module module = *d->module; /* but for the clauses it is the same */
-    tn_house_library_record record = *d->record;
-    tn_house_form form = d->form;
-    const tn_houses_what what = {.without = without};
-    tn_houses *counted = NULL;
-    module.HOUSE_CLAUSE_records = clauses;
-    module.HOUSE_CLAUSE_count = record.clause_count = count;
-    record.clause_first = 0;
-    form.module = &module;
-    tn_status status = d->states_left < d->max_states
-                           ? past_limit(error)
-                           : tn_houses_of(&form, &record, d->plans, &what, d->max_states, &counted, error);
-    if (status == TN_OK) {
-        uint64_t states = tn_houses_states(counted);
-        tn_houses_count(counted, TN_ALL_LENGTHS, houses);
-        d->states_left -= states < d->states_left ? states : d->states_left;
-    } else if (status == TN_LIMIT) {
-        d->states_left = 0; /* others of the same clauses would take as many */
-        tn_error_help(error, "--max-states N allows more; a library on plans of fewer trays takes fewer");
-    }
-    tn_houses_free(counted);
-    return status;
-}
-
 /* Of several clauses: those kept as it is, and those kept without the part, less twice what both keep. */
 static tn_status count_several(tn_dependents *d, const sorted_clauses *sorted, tn_frontier_without *without,
                                mpz_t houses, tn_error *error)
@@ -170,16 +121,17 @@ static tn_status count_several(tn_dependents *d, const sorted_clauses *sorted, t
     mpz_t other;
     mpz_init(other);
     if (!d->known)
-        status = count_kept(d, sorted->clauses, sorted->count, NULL, d->kept, error);
+        status = tn_house_counter_count(&d->counter, sorted->clauses, sorted->count, NULL, d->kept, error);
     d->known = status == TN_OK;
     without->first = sorted->count - sorted->concerned;
     if (status == TN_OK)
-        status = count_kept(d, sorted->clauses, sorted->count, without, houses, error);
+        status = tn_house_counter_count(&d->counter, sorted->clauses, sorted->count, without, houses, error);
     memcpy(sorted->clauses + sorted->count, sorted->clauses + without->first,
            sorted->concerned * sizeof *sorted->clauses);
     without->first = sorted->count;
     if (status == TN_OK)
-        status = count_kept(d, sorted->clauses, sorted->count + sorted->concerned, without, other, error);
+        status = tn_house_counter_count(&d->counter, sorted->clauses, sorted->count + sorted->concerned, without, other,
+                                        error);
     mpz_add(houses, houses, d->kept);
     mpz_submul_ui(houses, other, 2);
     mpz_clear(other);
@@ -190,12 +142,12 @@ tn_status tn_dependents_count(tn_dependents *d, const uint32_t *offsets, size_t 
 {
     sorted_clauses sorted;
     tn_frontier_without without = {.offsets = offsets, .count = count};
-    tn_status status = sort_clauses(d->module, d->record, offsets, count, &sorted, error);
+    tn_status status = sort_clauses(d->counter.module, d->counter.library, offsets, count, &sorted, error);
     mpz_set_ui(houses, 0);
     if (status == TN_OK && sorted.concerned == 1) {
         without.first = sorted.count - 1;
         without.differs = true;
-        status = count_kept(d, sorted.clauses, sorted.count, &without, houses, error);
+        status = tn_house_counter_count(&d->counter, sorted.clauses, sorted.count, &without, houses, error);
     } else if (status == TN_OK && sorted.concerned > 1) {
         status = count_several(d, &sorted, &without, houses, error);
     }

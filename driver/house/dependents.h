@@ -10,10 +10,8 @@
 
 #include "runtime/house/count/houses.h"
 
-/* The states of one count, where nobody says another limit, and of all counts of a library, in such limits: some
- * seconds. */
+/* The states of one count if nobody says another limit; of all counts: driver/house/counter.h. */
 #define TN_DEPENDENTS_STATES 100000u
-#define TN_DEPENDENTS_COUNTS 10u
 
 typedef struct tn_dependents tn_dependents;
 

@@ -1,4 +1,4 @@
-/* Warns about what of a form comes to nothing; says which libraries have plans that cannot stand in it. */
+/* Warns about what of a form comes to nothing. */
 #include <stdlib.h>
 
 #include "driver/house/survey_parts.h"
@@ -164,47 +164,11 @@ static tn_status survey(tn_opened *opened, uint32_t form, tn_error *error)
     return status;
 }
 
-/* ---- libraries */
-
-/* What is wrong with the walls is said of the library. Limits are not: they are said where its houses are asked for. */
-static tn_status report_walls(tn_opened *opened, const tn_house_library_record *library, tn_status status,
-                              const tn_error *error)
-{
-    if (status != TN_INVALID)
-        return status == TN_LIMIT ? TN_OK : status;
-    tn_diagnostics *list = &opened->compilation.diagnostics;
-    tn_diagnostic *d = tn_report(list, error->code, TN_SURVEY_SPAN(library), "%s", error->message);
-    tn_help(list, d, "%s", error->help);
-    return TN_OK;
-}
-
-static tn_status check_walls(tn_opened *opened, const tn_house_library_record *library, tn_error *error)
-{
-    const tn_module *module = opened->module;
-    const tn_library_options options = {0};
-    tn_schema *schema = NULL;
-    tn_library *plans = NULL;
-    tn_house_form form;
-    tn_status status = tn_schema_new(module, module->FORM_records[library->form].schema, 0, &schema, error);
-    if (status == TN_OK) {
-        tn_form_ready(module, library->form, schema, &form);
-        status = tn_library_new(schema, library->plans, &options, &plans, error);
-    }
-    if (status == TN_OK)
-        status = tn_houses_check_walls(&form, library, plans, error);
-    tn_library_free(plans);
-    tn_schema_free(schema);
-    return report_walls(opened, library, status, error);
-}
-
 tn_status tn_house_survey(tn_opened *opened, tn_error *error)
 {
     tn_status status = TN_OK;
     for (uint32_t i = 0; status == TN_OK && opened->compiled && i < opened->module->FORM_count; i++)
         if (!(opened->module->FORM_records[i].flags & TN_IMPORTED))
             status = survey(opened, i, error);
-    for (uint32_t i = 0; status == TN_OK && opened->compiled && i < opened->module->HOUSE_LIBRARY_count; i++)
-        if (!(opened->module->HOUSE_LIBRARY_records[i].flags & TN_IMPORTED))
-            status = check_walls(opened, &opened->module->HOUSE_LIBRARY_records[i], error);
     return status;
 }

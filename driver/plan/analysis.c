@@ -6,6 +6,7 @@
 
 #include "compiler/plan/syntax/program.h"
 #include "driver/house/survey.h"
+#include "driver/open/findings.h"
 #include "runtime/module/code.h"
 #include "runtime/plan/measure/never.h"
 #include "runtime/plan/schema/sum.h"
@@ -13,6 +14,7 @@
 
 /* One finding being reported. */
 typedef struct teller {
+    tn_finder finder;
     tn_opened *opened;
     const tn_module *module;
     const tn_schema *schema;
@@ -38,31 +40,18 @@ static const char *library_name(const teller *t)
     return tn_text(t->module, t->module->LIBRARY_records[t->finding->library].name);
 }
 
-/* The name alone where it stands behind the first word of the item, or else the whole item. */
-static tn_span name_span(const teller *t, tn_span item, size_t word, const char *name)
-{
-    const tn_sources *sources = &t->opened->compilation.sources;
-    if (item.file >= sources->count || item.end > sources->files[item.file].size)
-        return item;
-    const char *text = sources->files[item.file].text;
-    size_t begin = item.begin + word, length = strlen(name);
-    while (begin < item.end && strchr(" \t\r\n", text[begin]))
-        begin++;
-    if (begin + length > item.end || memcmp(text + begin, name, length) != 0)
-        return item;
-    return (tn_span){item.file, (uint32_t)begin, (uint32_t)(begin + length)};
-}
-
 static tn_span rule_span(const teller *t, uint32_t index)
 {
     const tn_rule_record *rule = &t->module->RULE_records[index];
-    return name_span(t, (tn_span){rule->file, rule->begin, rule->end}, strlen("rule"), tn_text(t->module, rule->name));
+    return tn_finding_name_span(&t->finder, (tn_span){rule->file, rule->begin, rule->end}, "rule",
+                                tn_text(t->module, rule->name));
 }
 
 static tn_span library_span(const teller *t)
 {
     const tn_library_record *library = &t->module->LIBRARY_records[t->finding->library];
-    return name_span(t, (tn_span){library->file, library->begin, library->end}, strlen("library"), library_name(t));
+    return tn_finding_name_span(&t->finder, (tn_span){library->file, library->begin, library->end}, "library",
+                                library_name(t));
 }
 
 static tn_span clause_span(const teller *t, uint32_t index)
@@ -71,9 +60,19 @@ static tn_span clause_span(const teller *t, uint32_t index)
     return (tn_span){clause->file, clause->begin, clause->end};
 }
 
-static bool is_imported(const teller *t, uint32_t rule)
+static tn_found_item rule_item(const teller *t, uint32_t rule)
 {
-    return t->module->RULE_records[rule].flags & TN_IMPORTED;
+    return (tn_found_item){rule_name(t, rule), rule_span(t, rule), t->module->RULE_records[rule].flags & TN_IMPORTED};
+}
+
+static tn_found_item clause_item(const teller *t, uint32_t clause)
+{
+    return (tn_found_item){clause_name(t, clause), clause_span(t, clause), false};
+}
+
+static tn_found_item library_item(const teller *t)
+{
+    return (tn_found_item){library_name(t), library_span(t), false};
 }
 
 /* ---- telling */
@@ -83,195 +82,127 @@ static tn_diagnostics *list_of(const teller *t)
     return &t->opened->compilation.diagnostics;
 }
 
-/* "NAME: [plan]", where there is a plan to show. */
-static tn_status note_plan(const teller *t, tn_diagnostic *diagnostic, const tn_span *span, const tn_shown_plan *plan,
-                           const char *what)
+/* The plan as a line, if there is one to show; the caller frees it. */
+static tn_status plan_text(const teller *t, const tn_shown_plan *plan, tn_buffer *text)
 {
+    *text = (tn_buffer){0};
     if (!plan->shown)
         return TN_OK;
-    tn_buffer line = {0};
-    bool ok = tn_plan_write_line(t->schema, plan->trays, plan->length, &line);
-    if (ok)
-        tn_note(list_of(t), diagnostic, span, "%s: %s", what, plan->length ? line.data : "the plan without trays");
-    free(line.data);
+    bool ok = plan->length ? tn_plan_write_line(t->schema, plan->trays, plan->length, text)
+                           : tn_buffer_printf(text, "the plan without trays");
     return ok ? TN_OK : tn_fail_memory(NULL);
-}
-
-/* Is it otherwise with other values of params? */
-static bool is_settable(const teller *t, tn_span span)
-{
-    return tn_program_settable(t->opened->compilation.program, span);
 }
 
 static bool is_allowed(const teller *t, tn_code code, tn_span span)
 {
-    return tn_program_allows(t->opened->compilation.program, code, span) || is_settable(t, span);
-}
-
-/* A condition of the rule that is always or never true has been warned about: that explains it. */
-static bool is_explained(const teller *t)
-{
-    const tn_rule_record *rule = &t->module->RULE_records[t->finding->rule];
-    const tn_diagnostics *list = list_of(t);
-    for (size_t i = 0; i < list->count; i++) {
-        const tn_diagnostic *d = &list->items[i];
-        bool inside =
-            d->has_span && d->span.file == rule->file && d->span.begin >= rule->begin && d->span.end <= rule->end;
-        if (inside && (d->code == W_ALWAYS_TRUE || d->code == W_NEVER_TRUE || d->code == W_REMAINDER_NEVER))
-            return true;
-    }
-    return false;
+    return tn_finding_allowed(&t->finder, code, span);
 }
 
 static tn_status tell_extreme(const teller *t)
 {
-    bool never = t->finding->found == TN_FOUND_NEVER;
-    tn_code code = never ? W_NEVER_MATCHES : W_ALWAYS_MATCHES;
-    tn_span span = rule_span(t, t->finding->rule);
-    if (is_allowed(t, code, span) || is_explained(t))
-        return TN_OK;
-    const char *name = rule_name(t, t->finding->rule);
-    tn_diagnostic *d =
-        tn_report(list_of(t), code, span, never ? "`%s` matches no plan" : "`%s` matches every plan", name);
-    if (never)
-        tn_help(list_of(t), d, "parts of it exclude each other; if that is meant, write `allow W001` before its `=`");
-    else
-        tn_help(list_of(t), d, "if that is meant, write `allow W002` before its `=`");
+    const tn_found_item rule = rule_item(t, t->finding->rule);
+    const tn_rule_record *record = &t->module->RULE_records[t->finding->rule];
+    if (!tn_finding_explained(&t->finder, (tn_span){record->file, record->begin, record->end}))
+        tn_report_extreme(&t->finder, &rule, t->finding->found == TN_FOUND_NEVER);
     return TN_OK;
-}
-
-/* Of two rules that are compared: is the warning turned off for one of them, or does it depend on params? */
-static bool is_pair_allowed(const teller *t, tn_code code, tn_span span, tn_span other)
-{
-    return is_allowed(t, code, span) || is_allowed(t, code, other);
 }
 
 static tn_status tell_subsumed(const teller *t)
 {
     const tn_plan_analysis_finding *f = t->finding;
     tn_span span = rule_span(t, f->rule), other = rule_span(t, f->other);
-    if (is_pair_allowed(t, W_SUBSUMED, span, other))
+    if (is_allowed(t, W_SUBSUMED, span) || is_allowed(t, W_SUBSUMED, other))
         return TN_OK;
     const char *name = rule_name(t, f->rule), *wider = rule_name(t, f->other);
-    char what[TN_NAME_MAX + 40];
+    tn_buffer plan;
     tn_diagnostic *d =
         tn_report(list_of(t), W_SUBSUMED, span, "`%s` matches every plan that `%s` matches", wider, name);
     tn_note(list_of(t), d, &other, "`%s` is here", wider);
-    snprintf(what, sizeof what, "only `%s` matches", wider);
     tn_help(list_of(t), d,
             "where both prune, `%s` is enough; if `%s` is for something else, write `allow W003` before its `=`", wider,
             name);
-    return note_plan(t, d, NULL, f->plans, what);
+    tn_status status = plan_text(t, f->plans, &plan);
+    if (status == TN_OK && plan.data)
+        tn_note(list_of(t), d, NULL, "only `%s` matches: %s", wider, plan.data);
+    free(plan.data);
+    return status;
 }
 
-/* A rule equal to one of a file that is used is no mistake: a note says that there is a name for it already. */
 static tn_status tell_equivalent(const teller *t)
 {
-    const tn_plan_analysis_finding *f = t->finding;
-    tn_span span = rule_span(t, f->rule), other = rule_span(t, f->other);
-    if (is_pair_allowed(t, W_EQUIVALENT, span, other))
-        return TN_OK;
-    const char *name = rule_name(t, f->rule), *equal = rule_name(t, f->other);
-    tn_diagnostics *list = list_of(t);
-    tn_diagnostic *d;
-    if (is_imported(t, f->other)) {
-        d = tn_report_bare(list, TN_NOTE, TN_CODE_NONE, "`%s` matches the same plans as `%s`", name, equal);
-        d->has_span = true;
-        d->span = span;
-    } else {
-        d = tn_report(list, W_EQUIVALENT, span, "`%s` matches the same plans as `%s`", name, equal);
-    }
-    tn_note(list, d, &other, "`%s` is here", equal);
-    tn_help(list, d, "use `%s` instead; if both are meant, write `allow W004` before this one's `=`", equal);
-    return note_plan(t, d, NULL, f->plans, "both match");
+    const tn_found_item rule = rule_item(t, t->finding->rule), other = rule_item(t, t->finding->other);
+    tn_buffer plan;
+    tn_status status = plan_text(t, t->finding->plans, &plan);
+    if (status == TN_OK)
+        tn_report_equivalent(&t->finder, &rule, &other, plan.data);
+    free(plan.data);
+    return status;
 }
 
-/* "`a`, `b` and `c`", cut off where there is no room. */
-static void join_reasons(const teller *t, char *text, size_t size)
+/* The clauses that are reasons; the caller frees them. */
+static tn_found_item *reason_items(const teller *t)
 {
-    size_t used = 0, count = t->finding->reason_count;
-    text[0] = '\0';
-    for (size_t i = 0; i < count && used < size; i++) {
-        const char *between = i == 0 ? "" : i + 1 == count ? " and " : ", ";
-        used += (size_t)snprintf(text + used, size - used, "%s`%s`", between, clause_name(t, t->finding->reasons[i]));
-    }
+    tn_found_item *items = malloc((t->finding->reason_count + 1) * sizeof *items);
+    for (size_t i = 0; items && i < t->finding->reason_count; i++)
+        items[i] = clause_item(t, t->finding->reasons[i]);
+    return items;
 }
 
 static tn_status tell_idle_prune(const teller *t)
 {
-    const tn_plan_analysis_finding *f = t->finding;
-    tn_span span = clause_span(t, f->clause);
-    char names[300], what[400];
-    bool settable = false;
-    for (size_t i = 0; i < f->reason_count; i++)
-        settable |= is_settable(t, clause_span(t, f->reasons[i]));
-    if (is_allowed(t, W_REDUNDANT_PRUNE, span) || settable)
-        return TN_OK;
-    const char *name = clause_name(t, f->clause);
-    tn_diagnostic *d;
-    if (f->reason_count == 0) {
-        d = tn_report(list_of(t), W_REDUNDANT_PRUNE, span,
-                      "`%s` prunes nothing: it matches no plan that `%s` generates", name, library_name(t));
-    } else {
-        d = tn_report(list_of(t), W_REDUNDANT_PRUNE, span,
-                      "`%s` prunes nothing that the other clauses of `%s` do not keep out", name, library_name(t));
-        join_reasons(t, names, sizeof names);
-    }
-    tn_help(list_of(t), d, "leave it out, or write `allow W005` in the library");
-    snprintf(what, sizeof what, "for example, pruned by %s too", f->reason_count ? names : "none");
-    return note_plan(t, d, NULL, f->plans, what);
+    const tn_found_item library = library_item(t), clause = clause_item(t, t->finding->clause);
+    tn_found_item *reasons = reason_items(t);
+    tn_buffer plan;
+    tn_status status = plan_text(t, t->finding->plans, &plan);
+    if (!reasons)
+        status = tn_fail_memory(NULL);
+    if (status == TN_OK)
+        tn_report_idle_prune(&t->finder, &library, &clause, reasons, t->finding->reason_count, plan.data);
+    free(reasons);
+    free(plan.data);
+    return status;
 }
 
 static tn_status tell_idle_requirement(const teller *t)
 {
-    tn_span span = clause_span(t, t->finding->clause);
+    const tn_found_item own = library_item(t), clause = clause_item(t, t->finding->clause);
     const tn_library_record *library = &t->module->LIBRARY_records[t->finding->library];
     bool settable = false;
     for (uint32_t i = 0; i < library->clause_count; i++)
-        settable |= is_settable(t, clause_span(t, library->clause_first + i));
+        settable |= tn_program_settable(t->opened->compilation.program, clause_span(t, library->clause_first + i));
     bool projects = t->module->CLAUSE_records[t->finding->clause].kind == TN_CLAUSE_ONTO; /* which makes the library */
-    if (is_allowed(t, W_NEEDLESS_REQUIREMENT, span) || settable || projects)
-        return TN_OK;
-    tn_diagnostic *d =
-        tn_report(list_of(t), W_NEEDLESS_REQUIREMENT, span, "every plan that `%s` would hold without `%s` meets it",
-                  library_name(t), clause_name(t, t->finding->clause));
-    tn_help(list_of(t), d, "leave it out, or write `allow W008` in the library");
+    if (!settable && !projects)
+        tn_report_idle_requirement(&t->finder, &own, &clause);
     return TN_OK;
 }
 
 static tn_status tell_empty(const teller *t)
 {
     const tn_plan_analysis_finding *f = t->finding;
-    const tn_library_record *library = &t->module->LIBRARY_records[f->library];
-    tn_span span = library_span(t);
-    tn_status status = TN_OK;
-    if (is_allowed(t, W_EMPTY_LIBRARY, span))
-        return TN_OK;
-    tn_diagnostic *d = tn_report(list_of(t), W_EMPTY_LIBRARY, span, "`%s` holds no plan", library_name(t));
-    if (f->why)
-        tn_note(list_of(t), d, NULL, "perhaps not all of these are needed for that: %s", f->why->message);
+    const tn_found_item library = library_item(t);
+    tn_found_item *reasons = reason_items(t);
+    tn_buffer *plans = calloc(f->reason_count + 1, sizeof *plans);
+    const char **examples = calloc(f->reason_count + 1, sizeof *examples);
+    tn_status status = reasons && plans && examples ? TN_OK : tn_fail_memory(NULL);
     for (size_t i = 0; status == TN_OK && i < f->reason_count; i++) {
-        char what[TN_SPELLING_MAX + 80];
-        tn_span place = clause_span(t, f->reasons[i]);
-        const char *name = clause_name(t, f->reasons[i]);
-        if (!f->plans[i].shown)
-            tn_note(list_of(t), d, &place, "`%s` is one of the clauses that do this", name);
-        snprintf(what, sizeof what,
-                 f->reason_count == 1 ? "`%s` keeps out all plans, for example"
-                                      : "without `%s` the others here would leave",
-                 name);
-        status = note_plan(t, d, &place, &f->plans[i], what);
+        status = plan_text(t, &f->plans[i], &plans[i]);
+        examples[i] = plans[i].data;
     }
-    if (f->reason_count == 1)
-        tn_help(list_of(t), d,
-                f->with_lengths ? "this clause leaves no plan of %u to %u trays: change it or `trays`"
-                                : "this clause leaves no plan: change it",
-                library->trays_min, library->trays_max);
-    else
-        tn_help(list_of(t), d,
-                f->with_lengths ? "together these leave no plan of %u to %u trays: change one of them, or `trays`"
-                                : "together these leave no plan: change one of them",
-                library->trays_min, library->trays_max);
+    const tn_library_record *record = &t->module->LIBRARY_records[f->library];
+    const tn_found_empty empty = {reasons,
+                                  examples,
+                                  f->reason_count,
+                                  f->with_lengths,
+                                  record->trays_min,
+                                  record->trays_max,
+                                  f->why ? f->why->message : NULL};
+    if (status == TN_OK)
+        tn_report_empty(&t->finder, &library, &empty);
+    for (size_t i = 0; plans && i < f->reason_count; i++)
+        free(plans[i].data);
+    free(plans);
+    free(examples);
+    free(reasons);
     return status;
 }
 
@@ -285,7 +216,12 @@ static tn_status tell_vacuous(const teller *t)
     tn_help(list_of(t), d,
             "a distance holds where there is nothing to be away from; to ask for a destination, add `and` and the "
             "destination");
-    return note_plan(t, d, NULL, t->finding->plans, "the shortest plan where it holds");
+    tn_buffer plan;
+    tn_status status = plan_text(t, t->finding->plans, &plan);
+    if (status == TN_OK && plan.data)
+        tn_note(list_of(t), d, NULL, "the shortest plan where it holds: %s", plan.data);
+    free(plan.data);
+    return status;
 }
 
 /* The field of which the specifier lets in no value at all; NULL where it is the schema's `forbid`s that leave none. */
@@ -321,7 +257,7 @@ static tn_status tell_no_tray(const teller *t)
     tn_diagnostic *d =
         tn_report(list_of(t), W_NO_LEGAL_TRAY, span, "no legal tray is like this: schema `%s` forbids them", schema);
     tn_span place = {t->schema->record->file, t->schema->record->begin, t->schema->record->end};
-    place = name_span(t, place, strlen("schema"), schema);
+    place = tn_finding_name_span(&t->finder, place, "schema", schema);
     tn_note(list_of(t), d, &place, "`%s` is here", schema);
     tn_help(list_of(t), d, "name fewer values, or change a `forbid` of the schema");
     return TN_OK;
@@ -464,7 +400,8 @@ static tn_status analyse_schema(tn_opened *opened, uint32_t index, const tn_plan
         check_quotients(opened, analyses->schemas[at]);
     status = tn_plan_analysis_new(analyses->schemas[at], options, &analyses->items[at], error);
     for (size_t i = 0; status == TN_OK && opened->compiled && i < tn_plan_analysis_count(analyses->items[at]); i++) {
-        teller t = {opened,
+        teller t = {{opened, "plan", "plans", ""},
+                    opened,
                     opened->module,
                     analyses->schemas[at],
                     tn_plan_analysis_get(analyses->items[at], i),

@@ -334,6 +334,19 @@ static tn_status count_sections(tn_houses *h, const tn_frontier_trays *trays, tn
     return status;
 }
 
+/* ---- other clauses */
+
+void tn_other_clauses_set(const tn_house_form *form, const tn_house_library_record *library,
+                          const tn_house_clause_record *clauses, uint32_t count, tn_other_clauses *other)
+{
+    *other = (tn_other_clauses){.module = *form->module, .library = *library, .form = *form};
+    other->module.HOUSE_CLAUSE_records = clauses;
+    other->module.HOUSE_CLAUSE_count = count;
+    other->library.clause_first = 0;
+    other->library.clause_count = count;
+    other->form.module = &other->module;
+}
+
 /* ---- the whole */
 
 /* The plans of measures are those of a library that knows what its trays add. */

@@ -55,6 +55,16 @@ tn_status tn_houses_of(const tn_house_form *form, const tn_house_library_record 
                        const tn_houses_what *what, uint32_t max_states, tn_houses **houses, tn_error *error);
 void tn_houses_free(tn_houses *houses);
 
+/* A library that differs from another in its clauses alone: in a copy of its form's module, which borrows the clauses
+ * and all else. It must not be moved, as `form` points into it. */
+typedef struct tn_other_clauses {
+    tn_module module;
+    tn_house_library_record library;
+    tn_house_form form;
+} tn_other_clauses;
+void tn_other_clauses_set(const tn_house_form *form, const tn_house_library_record *library,
+                          const tn_house_clause_record *clauses, uint32_t count, tn_other_clauses *other);
+
 /* How the houses are spread over the values of the first measure; `distribution` is initialised. */
 tn_status tn_houses_spread(const tn_houses *houses, tn_distribution *distribution, tn_error *error);
 

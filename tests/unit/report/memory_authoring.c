@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "driver/house/analysis.h"
 #include "driver/report/report.h"
 #include "runtime/plan/match/lower.h"
 #include "runtime/plan/picture/draw_rule.h"
@@ -41,6 +42,17 @@ static const char cabins[] =
     "library cabins from bays in cabin { require cell(live) and not tray(3m) prune dark }\n"
     "test dark { match [4m ; 1 flat red ; sleep ; wall wall wall wall] }\n"
     "test cabins { keep [4m ; 1 flat blue ; live ; pane wall wall wall] drop [4m ; 1 flat blue ; sleep] }\n";
+
+/* Clauses that change nothing, and that contradict one another; values that no house has; rules that are equal. */
+static const char idle[] =
+    "schema bay { width role length = 3m | 4m zone body role band = room(4m) role void }\n"
+    "form cabin of bay { storey low 3m wall 200mm partition 100mm deck 300mm roof 200mm\n"
+    "  section body roof = flat | gable(9:12) function live at cell(body) function sleep at cell(body)\n"
+    "  opening door wide 900mm high 2m passage face cell(any) beside cell(any) = door | wall }\n"
+    "library bays using bay { trays 1..2 }\n"
+    "rule beds = cell(sleep) rule slept = quantity(cell(sleep), n >= 1) rule more = quantity(cell(sleep), n > 1)\n"
+    "library some from bays in cabin { require section(body roof flat), beds prune not slept }\n"
+    "library none from bays in cabin { require more prune slept, cell(live) as live }\n";
 
 static const tn_tray dropped[] = {3, 2, 3, 0, 5, 5};
 
@@ -89,6 +101,23 @@ static tn_status cover(void *context, tn_buffer *out, tn_error *error)
         status = tn_fail_memory(error);
     tn_covered_clear(&covered);
     return status;
+}
+
+static tn_status analyse_houses(void *context, tn_buffer *out, tn_error *error)
+{
+    opened_rows *rows = context;
+    tn_diagnostics *list = &rows->opened.compilation.diagnostics;
+    tn_diagnostics_clear(list);
+    tn_status status = tn_house_analyse(&rows->opened, 0);
+    if (status == TN_MEMORY || list->failed)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < list->count; i++) {
+        const tn_diagnostic *d = &list->items[i];
+        tn_buffer_printf(out, "%s %s", d->message, d->help ? d->help : "");
+        for (size_t k = 0; k < d->note_count; k++)
+            tn_buffer_printf(out, " %s", d->notes[k].text);
+    }
+    return out->failed ? tn_fail_memory(error) : TN_OK;
 }
 
 static tn_status report(void *context, tn_buffer *out, tn_error *error)
@@ -159,6 +188,16 @@ static void covering_houses(void **state)
     tn_close(&rows.opened);
 }
 
+static void analysing_houses(void **state)
+{
+    opened_rows rows = {0};
+    (void)state;
+    if (tn_open_bytes("idle.plan", (const uint8_t *)idle, strlen(idle), false, &rows.opened) != TN_OK)
+        fail_msg("%s", rows.opened.compilation.diagnostics.items[0].message);
+    same_or_memory(analyse_houses, &rows, 16);
+    tn_close(&rows.opened);
+}
+
 static void reporting(void **state)
 {
     same_or_memory(report, *state, 6);
@@ -203,7 +242,8 @@ static int close_rows(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(explaining),      cmocka_unit_test(covering),
-                                       cmocka_unit_test(covering_houses), cmocka_unit_test(reporting),
-                                       cmocka_unit_test(drawing),         cmocka_unit_test(exporting)};
+                                       cmocka_unit_test(covering_houses), cmocka_unit_test(analysing_houses),
+                                       cmocka_unit_test(reporting),       cmocka_unit_test(drawing),
+                                       cmocka_unit_test(exporting)};
     return cmocka_run_group_tests(tests, open_rows, close_rows);
 }
