@@ -9,7 +9,7 @@ SECONDS ?= 600
 FIRST ?= $(shell date +%s)
 TEST = ctest --test-dir build --output-on-failure --timeout 1200 -j $(TEST_JOBS)
 
-.PHONY: help packages build demo check check-long check-parts check-editor check-report check-studio check-studio-quick check-scale check-sanitizers check-arm check-arm-syntax wasm check-wasm lint package check-package bench bench-place bench-scale bench-studio fuzz search install uninstall clean
+.PHONY: help packages build demo check check-long check-parts check-editor check-report check-studio check-studio-quick check-scale check-sanitizers check-arm check-arm-syntax wasm check-wasm python check-python lint package check-package bench bench-place bench-scale bench-studio bench-python fuzz search install uninstall clean
 
 help:
 	@echo 'make demo        build tartan, count a plan library, draw a sheet of it (into demo/)'
@@ -27,11 +27,14 @@ help:
 	@echo 'make check-arm   build for 64-bit ARM, test that in an emulator and compare its results with those here (into build-arm/)'
 	@echo 'make wasm        make the engines as WebAssembly, for pages and workers (into build-wasm/site)'
 	@echo 'make check-wasm  test these under Node, and compare their results with those here'
+	@echo 'make python      build the Python package: two wheels (into build-python/), and python3-tartan with make package'
+	@echo 'make check-python  test that: its calls against the command, its wheels, its notebooks'
 	@echo 'make lint        look over the sources with clang-tidy'
 	@echo 'make bench       print how fast it is here'
 	@echo 'make bench-place print how fast parts are placed, counted and drawn here'
 	@echo 'make bench-scale print how fast shard sets are here (an idle machine with two processors or more)'
 	@echo 'make bench-studio print how fast the studio answers here'
+	@echo 'make bench-python print how fast the Python package is, beside C'
 	@echo 'make fuzz        run each fuzz target for FUZZ_SECONDS (600)'
 	@echo 'make search      ask random files every question against every other for SECONDS (600), from the seed FIRST (the time)'
 	@echo 'make install     install below PREFIX (/usr/local), staged into DESTDIR where that is set'
@@ -103,6 +106,17 @@ wasm: packages
 check-wasm: build wasm
 	@tools/check-wasm build build-wasm
 
+# The packages first: the build has the Python package only where these are.
+python: python-packages build
+	@tools/build-python build build-python
+
+check-python: python-packages build
+	@tools/check-python build $(SHARE)
+
+.PHONY: python-packages
+python-packages: packages
+	@tools/install-packages tools/python-packages.txt
+
 lint: build
 	@tools/lint build
 
@@ -114,6 +128,9 @@ bench-place: build
 
 bench-studio: build
 	@bench/studio build build-wasm
+
+bench-python: python-packages build
+	@bench/python build
 
 bench-scale: build
 	@bench/scale build/tartan
@@ -135,4 +152,4 @@ uninstall:
 	@DESTDIR='$(DESTDIR)' cmake -DMANIFEST=build/install_manifest.txt -P cmake/uninstall.cmake
 
 clean:
-	@rm -rf build build-wasm build-arm build-asan build-asan-quick build-fuzz build-package build-parts demo
+	@rm -rf build build-python build-wasm build-arm build-asan build-asan-quick build-fuzz build-package build-parts demo

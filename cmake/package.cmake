@@ -44,5 +44,16 @@ if(TARGET tartan-studio)
   set(CPACK_COMPONENT_STUDIO_DESCRIPTION "The server of `tartan studio`: a page in the browser on which rules are written and what they keep is
 seen at once. It serves one folder, to this machine alone.")
 endif()
+# python3-tartan, where it was built (python/): for the system's Python and later ones, by the libraries of tartan.
+if(TARGET python-tartan)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-tartan)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "tartan (= ${PROJECT_VERSION}), python3 (>= 3.9), python3-cffi-backend")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-numpy, python3-pandas")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_GENERATE_SHLIBS OFF)
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The Python package tartan: rule files compiled, libraries of plans and houses counted, ranked, sampled and
+measured, surfaces grown and meshed, in scripts and notebooks.")
+endif()
 set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/debian.cmake)
 include(CPack)
