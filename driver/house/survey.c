@@ -298,6 +298,7 @@ void tn_survey_free(tn_survey *s)
     for (size_t i = 0; s->uses && i < TN_FACE_KIND_COUNT + (size_t)s->form.record->opening_count; i++)
         free(s->uses[i].outside_of);
     free(s->classes);
+    free(s->links);
     free(s->places);
     free(s->first_places);
     free(s->functions);

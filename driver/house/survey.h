@@ -38,6 +38,12 @@ typedef struct tn_survey_meeting {
     tn_house_side side;
 } tn_survey_meeting;
 
+/* Cells of two classes, or of one and the outside (b: NULL), between which people may pass, through what is so wide. */
+typedef struct tn_passed {
+    const tn_cell_class *a, *b;
+    int64_t wide;
+} tn_passed;
+
 /* Which faces may have an opening or a flight, as far as the lines of faces and the largest cells say. */
 typedef struct tn_kind_use {
     bool used;
@@ -78,6 +84,8 @@ typedef struct tn_survey {
     size_t met_words; /* of a class's bits */
     tn_cell_class *classes;
     size_t class_count, class_room;
+    tn_passed *links;
+    size_t link_count, link_room;
 } tn_survey;
 
 #define TN_SURVEY_PLACES_MAX 10000u

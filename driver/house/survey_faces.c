@@ -58,6 +58,9 @@ typedef struct asking {
     kind_use *kinds;
     line_kind *items; /* [kind of a line], those of one line after those of the line before */
     size_t meeting;   /* from 1 */
+    int64_t passes;   /* through what people pass in the meeting, the widest; 0: nothing */
+    tn_status status;
+    tn_error *error;
 } asking;
 
 static void add_all(uint64_t *set, const uint64_t *of, size_t words)
@@ -113,6 +116,8 @@ static void ask_kinds(asking *a, const tn_survey_meeting *m, uint32_t line)
         if (!tn_survey_may_fit(s, m, kind))
             continue;
         note_use(s, m, &s->uses[kind]);
+        int64_t passes = tn_survey_passes(s, m, kind);
+        a->passes = passes > a->passes ? passes : a->passes;
         a->lines[line].reached |= !had;
         if (had) {
             a->lines[line].hidden_by = a->kinds[kind].line;
@@ -126,6 +131,7 @@ static void ask(asking *a, const tn_survey_meeting *m)
     const tn_survey *s = a->survey;
     uint32_t taken = TN_NO_RECORD;
     a->meeting++;
+    a->passes = 0;
     for (uint32_t i = 0; i < s->form.record->face_count; i++) {
         const tn_face_line_record *record = &s->form.module->FACE_LINE_records[s->form.record->face_first + i];
         if (!is_about(record, i, m))
@@ -141,6 +147,8 @@ static void ask(asking *a, const tn_survey_meeting *m)
         if (always_fits(s, record))
             taken = i;
     }
+    if (a->passes > 0 && a->status == TN_OK)
+        a->status = tn_survey_link(a->survey, m, a->passes, a->error);
 }
 
 static void ask_pair(asking *to, const tn_cell_class *a, const tn_cell_class *b)
@@ -264,14 +272,17 @@ tn_status tn_survey_faces(tn_survey *s, tn_error *error)
     asking to = {.survey = s,
                  .lines = calloc((size_t)lines + 1, sizeof *to.lines),
                  .kinds = calloc(kinds, sizeof *to.kinds),
-                 .items = calloc(items + 1, sizeof *to.items)};
+                 .items = calloc(items + 1, sizeof *to.items),
+                 .error = error};
     tn_status status = to.lines && to.kinds && to.items ? TN_OK : tn_fail_memory(error);
     for (uint32_t i = 0, first = 0; status == TN_OK && i < lines; i++) {
         to.lines[i] = (line_use){.item_first = first, .hidden_by = TN_NO_RECORD};
         first += s->form.module->FACE_LINE_records[s->form.record->face_first + i].kind_count;
     }
-    if (status == TN_OK)
+    if (status == TN_OK) {
         ask_all(&to);
+        status = to.status;
+    }
     free(to.lines);
     free(to.kinds);
     free(to.items);

@@ -66,6 +66,17 @@ void tn_survey_say_misfit(const tn_survey *survey, tn_diagnostic *diagnostic, co
 /* Warns of stairs without a shape, once, with a flight that has room instead. */
 void tn_survey_stairs(const tn_survey *survey);
 
+/* ---- survey_reach.c */
+
+/* How wide the way is that the kind leaves in the face of a meeting, for people; 0: none. */
+int64_t tn_survey_passes(const tn_survey *survey, const tn_survey_meeting *meeting, uint32_t kind);
+
+/* Notes that a face of the meeting may have such a kind, and how wide the widest is. TN_MEMORY. */
+tn_status tn_survey_link(tn_survey *survey, const tn_survey_meeting *meeting, int64_t wide, tn_error *error);
+
+/* Warns of functions and storeys that nobody comes to. */
+tn_status tn_survey_reach(const tn_survey *survey, tn_error *error);
+
 /* ---- survey_faces.c: lines of faces that never apply, or are hidden by those before them; notes which kinds are used
  */
 tn_status tn_survey_faces(tn_survey *survey, tn_error *error);

@@ -142,6 +142,8 @@ static tn_status warn(tn_survey *s, tn_error *error)
     for (uint32_t i = 0; i < s->form.record->opening_count; i++)
         warn_opening(s, i);
     tn_status status = warn_bare(s, error);
+    if (status == TN_OK)
+        status = tn_survey_reach(s, error);
     for (uint32_t i = 0; status == TN_OK && i < s->form.record->tile_count; i++) {
         status = warn_tile(s, i, error);
         if (status == TN_OK && tn_watch_stopped(s->form.module->watch))
