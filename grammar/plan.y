@@ -106,8 +106,8 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <form_clause> thickness relation price
 %type <tile_part> stretch_word
 %type <box_side> side_word
-%type <node> form_clause shape argument opening_part tile_part reach section_alternative section_item
-%type <list> form_clauses shapes arguments opening_parts tile_parts kinds or_names reaches section_items section_alternatives
+%type <node> form_clause shape argument opening_part tile_part reach layer section_alternative section_item
+%type <list> form_clauses layers shapes arguments opening_parts tile_parts kinds or_names reaches section_items section_alternatives
 %type <word> size outside_side side number turn section
 %type <expr> material_where
 %type <expr> cells cell_ors cell_and cell_ands cell_not sections section_ors section_and section_ands section_not
@@ -761,6 +761,11 @@ form_clause
     : storey NAME doc size                      { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_STOREY, .name = $2, .doc = $3, .length = $4}); }
     | spine NAME                                { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_SPINE, .name = $2}); }
     | thickness size                            { $1.length = $2; $$ = tn_ast_form_clause_new(parse, @$, $1); }
+    | thickness size OPEN_BRACE CLOSE_BRACE     { $1.length = $2; $1.layered = tn_span_join(@3, @4); $$ = tn_ast_form_clause_new(parse, @$, $1); }
+    | thickness size OPEN_BRACE layers CLOSE_BRACE
+                                                { $1.length = $2; $1.layered = tn_span_join(@3, @5); $1.parts = $4; $$ = tn_ast_form_clause_new(parse, @$, $1); }
+    | thickness size OPEN_BRACE error CLOSE_BRACE
+                                                { $1.length = $2; $$ = tn_ast_form_clause_new(parse, @$, $1); yyerrok; }
     | section EQUAL shapes                      { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_SECTION, .name = $1, .list = $3}); }
     | section NAME EQUAL shapes                 { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_SECTION, .name = $1, .detail = $2, .list = $4}); }
     | forbid_word sections                      { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_FORBID, .first = $2}); }
@@ -822,9 +827,21 @@ material_where
 
 thickness
     : WALL                                      { $$ = (tn_ast_form_clause){.part = TN_PART_WALL}; yyerrok; }
+    | WALL OUTSIDE                              { $$ = (tn_ast_form_clause){.part = TN_PART_WALL, .detail = tn_ast_word_new(parse, TN_WORD_NAME, @2, "outside", TN_LAYERED_OUTSIDE)}; yyerrok; }
+    | WALL NAME                                 { $$ = (tn_ast_form_clause){.part = TN_PART_WALL, .detail = $2}; yyerrok; }
     | PARTITION                                 { $$ = (tn_ast_form_clause){.part = TN_PART_PARTITION}; yyerrok; }
     | DECK                                      { $$ = (tn_ast_form_clause){.part = TN_PART_DECK}; yyerrok; }
     | ROOF                                      { $$ = (tn_ast_form_clause){.part = TN_PART_ROOF}; yyerrok; }
+    ;
+
+/* From the outside or from the first cell of a face inwards, from the top down. */
+layers
+    : layer                                     { $$ = tn_ast_one($1); }
+    | layers COMMA layer                        { $$ = tn_ast_append($1, $3); }
+    ;
+
+layer
+    : NAME size                                 { $$ = tn_ast_layer_new(parse, @$, $1, $2); }
     ;
 
 relation

@@ -762,10 +762,21 @@ static void complete_kinds(lsp_cursor *c)
     offer_words(c, TN_AT(KIND));
 }
 
+/* In a line that says how thick something is, which may have layers in braces. */
+static bool starts_thickness(const lsp_cursor *c)
+{
+    return cursor_is(c, c->clause, "wall") || cursor_is(c, c->clause, "partition") || cursor_is(c, c->clause, "deck") ||
+           cursor_is(c, c->clause, "roof");
+}
+
 /* In the braces of a form, outside of parentheses. */
 static void complete_form(lsp_cursor *c)
 {
-    if (c->braces > 1 || cursor_is(c, c->clause, "tile")) {
+    if (starts_thickness(c)) {
+        offer_parts(c, TN_SYMBOL_LAYER, KIND_VALUE);
+        if (c->braces == 1)
+            offer_words(c, TN_AT(WALL));
+    } else if (c->braces > 1 || cursor_is(c, c->clause, "tile")) {
         offer_parts(c, TN_SYMBOL_FUNCTION, KIND_FUNCTION);
         complete_kinds(c);
         offer_words(c, TN_AT(TILE) | TN_AT(TILE_LINE));
@@ -774,6 +785,7 @@ static void complete_form(lsp_cursor *c)
         offer_words(c, TN_AT(FACE) | TN_AT(CELLS));
     } else if (cursor_is(c, c->clause, "material")) {
         offer_parts(c, TN_SYMBOL_OPENING, KIND_VALUE);
+        offer_parts(c, TN_SYMBOL_LAYER, KIND_VALUE);
         offer_words(c, TN_AT(MATERIAL) | TN_AT(SECTIONS));
     } else if (cursor_is(c, c->clause, "allow")) {
         complete_codes(c);

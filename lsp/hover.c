@@ -16,7 +16,7 @@ static const char *kind_name(const tn_symbol *symbol)
         [TN_SYMBOL_RULE] = "rule",         [TN_SYMBOL_LIBRARY] = "library", [TN_SYMBOL_CLAUSE] = "clause",
         [TN_SYMBOL_MEASURE] = "measure",   [TN_SYMBOL_FORM] = "form",       [TN_SYMBOL_STOREY] = "storey",
         [TN_SYMBOL_FUNCTION] = "function", [TN_SYMBOL_OPENING] = "opening", [TN_SYMBOL_TILE] = "tile",
-        [TN_SYMBOL_CHOICE] = "choice",     [TN_SYMBOL_PARAM] = "param"};
+        [TN_SYMBOL_CHOICE] = "choice",     [TN_SYMBOL_PARAM] = "param",     [TN_SYMBOL_LAYER] = "layer"};
     return names[symbol->kind];
 }
 

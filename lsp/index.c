@@ -20,7 +20,7 @@ static void index_expression(tn_index *index, const index_about *about, const tn
 
 /* ---- what a form declares, and where it is named: in the form, in questions about houses, in lines of houses */
 
-/* A storey, function, opening or tile of a form; NULL where it has none of that name. */
+/* A storey, function, opening, tile or layer of a form; NULL where it has none of that name. */
 static const tn_symbol *index_part(const tn_symbol *form, const char *name)
 {
     for (const tn_symbol *s = form ? form->next : NULL; s && s->parent == form; s = s->next)
@@ -66,6 +66,14 @@ static void define_choice(tn_index *index, const tn_ast_form_clause *clause, con
         choice->name = copied;
 }
 
+/* Layers of one name are one part, which the first declares. */
+static void define_layers(tn_index *index, const tn_ast_form_clause *clause, const tn_symbol *form)
+{
+    for (TN_EACH(const tn_ast_layer, layer, clause->parts))
+        if (!index_part(form, layer->name->text))
+            index_define(index, TN_SYMBOL_LAYER, layer->name, NULL, &layer->node, form);
+}
+
 static void index_define_form(tn_index *index, const tn_ast_form *ast)
 {
     tn_symbol *form = index_define(index, TN_SYMBOL_FORM, ast->name, ast->doc, &ast->top.node, NULL);
@@ -79,6 +87,8 @@ static void index_define_form(tn_index *index, const tn_ast_form *ast)
     for (TN_EACH(const tn_ast_form_clause, clause, ast->clauses))
         if (clause->part == TN_PART_SECTION && clause->name)
             define_choice(index, clause, form);
+        else if (clause->part >= TN_PART_WALL && clause->part <= TN_PART_ROOF)
+            define_layers(index, clause, form);
         else if (is_defined(clause->part, &kind) && clause->name)
             index_define(index, kind, clause->name, clause->doc, &clause->node, form);
 }
@@ -145,6 +155,15 @@ static void use_tile(tn_index *index, const tn_symbol *form, const tn_ast_form_c
             index_kinds(index, form, part->list);
 }
 
+static void use_layers(tn_index *index, const tn_symbol *form, const tn_ast_form_clause *clause)
+{
+    for (TN_EACH(const tn_ast_layer, layer, clause->parts)) {
+        const tn_symbol *first = index_part(form, layer->name->text);
+        if (first && first->ast != &layer->node)
+            index_occur(index, layer->name->node.span, first);
+    }
+}
+
 static void index_use_form(tn_index *index, const tn_symbol *form, const tn_ast_form *ast)
 {
     if (!form)
@@ -160,6 +179,8 @@ static void index_use_form(tn_index *index, const tn_symbol *form, const tn_ast_
             index_kinds(index, form, clause->list);
         else if (clause->part == TN_PART_TILE)
             use_tile(index, form, clause);
+        else if (clause->part >= TN_PART_WALL && clause->part <= TN_PART_ROOF)
+            use_layers(index, form, clause);
     }
 }
 

@@ -20,6 +20,7 @@ typedef enum tn_symbol_kind {
     TN_SYMBOL_FUNCTION,
     TN_SYMBOL_OPENING, /* a flight of stairs, too */
     TN_SYMBOL_TILE,
+    TN_SYMBOL_LAYER,  /* of walls, partitions and decks; all of a name are one */
     TN_SYMBOL_CHOICE, /* of a section; a zone's is called "body roof" */
 } tn_symbol_kind;
 
@@ -29,7 +30,7 @@ typedef struct tn_symbol {
     const char *name, *doc; /* doc may be NULL */
     tn_span name_span, span;
     const struct tn_symbol *parent; /* of a field its schema, of a value its field, of a clause its library, of a
-                                       storey, function, opening, tile or choice its form */
+                                       storey, function, opening, tile, layer or choice its form */
     const struct tn_symbol *schema; /* of a rule, measure, library or form, or what a schema is made from; NULL: none,
                                        or not known */
     const struct tn_symbol *form;   /* of a rule, measure or library about houses; NULL: none, or not known */

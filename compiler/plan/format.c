@@ -220,12 +220,40 @@ static void put_tile(tn_format *format, size_t first, size_t last)
     tn_format_put(format, close, 0);
 }
 
+/* A line that says how thick something is, with layers in braces: on one line if there is room, or a line each. */
+static void put_layers(tn_format *format, size_t first, size_t last)
+{
+    size_t open = find(format, first, last, "{"), close = last - 1, comments = format->tokens[first].comment_count;
+    format->tokens[first].comment_count = 0; /* those before the line do not count */
+    bool fits = BODY + tn_format_width(format, first, last) <= TN_FORMAT_WIDTH;
+    format->tokens[first].comment_count = comments;
+    if (fits) {
+        tn_format_flat(format, first, last);
+        return;
+    }
+    tn_format_flat(format, first, open + 1);
+    for (size_t i = open + 1, next; i < close; i = next) {
+        next = find(format, i, close, ",");
+        next += next < close;
+        format->tokens[i].blank = false;
+        tn_format_gap(format, i, 2 * BODY, false);
+        tn_layout_line(&format->layout, 2 * BODY);
+        tn_format_flat(format, i, next);
+    }
+    format->tokens[close].blank = false;
+    tn_format_gap(format, close, 2 * BODY, false);
+    tn_layout_line(&format->layout, BODY);
+    tn_format_put(format, close, 0);
+}
+
 static void put_parts(tn_format *format, const size_t *starts, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
         tn_layout_line(&format->layout, BODY);
         if (tn_format_is(format, starts[i], "tile"))
             put_tile(format, starts[i], starts[i + 1]);
+        else if (find(format, starts[i], starts[i + 1], "{") < starts[i + 1])
+            put_layers(format, starts[i], starts[i + 1]);
         else
             tn_format_fill(format, starts[i], starts[i + 1], at_part_break, false, BODY + CONTINUED, 0);
     }

@@ -28,8 +28,20 @@ static uint32_t part_of(const tn_survey *s, const tn_material_record *material, 
 static bool is_leafless(const tn_survey *s, uint32_t part)
 {
     const tn_form_record *form = s->form.record;
-    return part >= TN_OF_COUNT && part - TN_OF_COUNT < form->opening_count &&
-           s->form.module->OPENING_records[form->opening_first + part - TN_OF_COUNT].flags & TN_LEAFLESS;
+    uint32_t first = tn_form_openings_part(&s->form);
+    return part >= first && part - first < form->opening_count &&
+           s->form.module->OPENING_records[form->opening_first + part - first].flags & TN_LEAFLESS;
+}
+
+/* Is the part what all of its walls or decks are, in layers? */
+static bool is_layered(const tn_survey *s, uint32_t part)
+{
+    static const tn_layered kinds[] = {[TN_OF_WALL] = TN_LAYERED_OUTSIDE,
+                                       [TN_OF_PARTY] = TN_LAYERED_PARTY,
+                                       [TN_OF_PARTITION] = TN_LAYERED_PARTITION,
+                                       [TN_OF_DECK] = TN_LAYERED_DECK};
+    bool layers = part == TN_OF_WALL || part == TN_OF_PARTY || part == TN_OF_PARTITION || part == TN_OF_DECK;
+    return layers && tn_form_layers(&s->form, kinds[part]) < s->form.layers_end[kinds[part]];
 }
 
 /* Which materials the section of the house has. */
@@ -41,7 +53,8 @@ static void see_materials(const tn_survey *s, section_use *seen)
             seen->holds[i] || material->where == TN_NO_RECORD || tn_house_decide(&s->house, material->where, NULL);
         for (uint32_t p = 0; seen->holds[i] && !seen->used[i] && p < material->part_count; p++) {
             uint32_t part = part_of(s, material, p);
-            bool there = (part != TN_OF_PARTY || tn_survey_names(s, TN_FACE_PARTY)) && !is_leafless(s, part);
+            bool there = (part != TN_OF_PARTY || tn_survey_names(s, TN_FACE_PARTY)) && !is_leafless(s, part) &&
+                         !is_layered(s, part);
             seen->used[i] = there && tn_part_material(&s->house, part) == s->form.record->material_first + i;
         }
     }
@@ -112,12 +125,16 @@ static void warn_materials(const tn_survey *s, const section_use *seen)
             continue;
         bool party =
             material->part_count == 1 && part_of(s, material, 0) == TN_OF_PARTY && !tn_survey_names(s, TN_FACE_PARTY);
-        bool leafless = material->part_count == 1 && is_leafless(s, part_of(s, material, 0));
+        bool leafless = material->part_count == 1 && is_leafless(s, part_of(s, material, 0)),
+             layered = is_layered(s, part_of(s, material, 0));
+        for (uint32_t p = 1; p < material->part_count; p++)
+            layered = layered && is_layered(s, part_of(s, material, p));
         tn_diagnostic *d = tn_report(tn_survey_list(s), W_MATERIAL_FOR_NOTHING, TN_SURVEY_SPAN(material),
                                      "nothing is ever made of `%s`", tn_text(s->form.module, material->name));
         tn_help(tn_survey_list(s), d,
                 party            ? "no line of faces has the kind `party`"
                 : leafless       ? "the opening is `leafless`: nothing stands in it"
+                : layered        ? "such parts consist of layers: a material is for one of these, by its name"
                 : seen->holds[i] ? "where it is meant for, lines before it name all of its parts"
                                  : "no section of the form is as its `where` says");
     }

@@ -302,6 +302,25 @@ static tn_status put_houses(tn_house_reporting *r)
 
 /* ---- the page */
 
+/* " (boards 1\", studs 5\")", if it has layers. */
+static bool put_layers(const tn_house_reporting *r, tn_layered of)
+{
+    const tn_house_form *form = r->report->form;
+    uint32_t first = tn_form_layers(form, of), end = form->layers_end[of];
+    bool good = true;
+    for (uint32_t i = first; good && i < end; i++)
+        good = tn_page_html(&r->page, i == first ? " (" : ", ") &&
+               tn_page_text(&r->page, tn_text(r->module, tn_form_layer(form, i)->name)) &&
+               tn_page_html(&r->page, " ") && house_put_length(r, tn_form_layer(form, i)->thick);
+    return good && (first == end || tn_page_html(&r->page, ")"));
+}
+
+static bool has_party_layers(const tn_house_reporting *r)
+{
+    const tn_house_form *form = r->report->form;
+    return tn_form_layers(form, TN_LAYERED_PARTY) < form->layers_end[TN_LAYERED_PARTY];
+}
+
 static bool put_head(const tn_house_reporting *r)
 {
     const tn_house_report *report = r->report;
@@ -313,9 +332,13 @@ static bool put_head(const tn_house_reporting *r)
            tn_page_html(&r->page, "</b>, on the plans of <b>") &&
            tn_page_text(&r->page, tn_text(r->module, r->module->LIBRARY_records[report->library->plans].name)) &&
            tn_page_html(&r->page, "</b>: walls ") && house_put_length(r, form->wall) &&
-           tn_page_html(&r->page, " thick, partitions ") && house_put_length(r, form->partition) &&
-           tn_page_html(&r->page, ", decks ") && house_put_length(r, form->deck) &&
-           tn_page_html(&r->page, ", roofs ") && house_put_length(r, form->roof) &&
+           tn_page_html(&r->page, " thick") && put_layers(r, TN_LAYERED_OUTSIDE) &&
+           (!has_party_layers(r) ||
+            (tn_page_html(&r->page, ", party walls as thick") && put_layers(r, TN_LAYERED_PARTY))) &&
+           tn_page_html(&r->page, ", partitions ") && house_put_length(r, form->partition) &&
+           put_layers(r, TN_LAYERED_PARTITION) && tn_page_html(&r->page, ", decks ") &&
+           house_put_length(r, form->deck) && put_layers(r, TN_LAYERED_DECK) && tn_page_html(&r->page, ", roofs ") &&
+           house_put_length(r, form->roof) &&
            tn_page_html(&r->page, ".</p>\n<nav><a href=\"#counts\">Counts</a> <a href=\"#clauses\">Clauses</a> "
                                   "<a href=\"#houses\">Houses</a> <a href=\"#storeys\">Storeys</a> "
                                   "<a href=\"#functions\">Functions</a> <a href=\"#openings\">Openings</a> "

@@ -103,9 +103,7 @@ static tn_status put_wall(const tn_house *house, uint32_t index, const tn_posts 
     bool in_y = face->at.x0 == face->at.x1;
     wall.from = in_y ? face->at.y0 + first->thick_y / 2 : face->at.x0 + first->thick_x / 2;
     wall.to = in_y ? face->at.y1 - last->thick_y / 2 : face->at.x1 - last->thick_x / 2;
-    wall.kind = face->relation == TN_FACE_OUTSIDE ? TN_SOLID_OUTSIDE
-                : face->kind == TN_FACE_PARTY     ? TN_SOLID_PARTY
-                                                  : TN_SOLID_PARTITION;
+    wall.kind = tn_face_wall(house, face);
     int64_t z0 = form->level[face->storey], z1 = z0 + tn_form_clear(form, face->storey);
     const tn_opening_record *opening = tn_form_opening(form, face->kind);
     tn_status status = tn_rectangles_add(foot, wall_part(&wall, wall.from, wall.to), error);
@@ -127,7 +125,11 @@ static tn_status put_walls(const tn_house *house, uint32_t storey, tn_rectangles
         const tn_post *post = &posts.items[i];
         if (!post->thick_x || !post->thick_y)
             continue;
-        status = put(solids, TN_SOLID_POST, storey, tn_post_at(post), z0, z1, error);
+        tn_rectangle at = tn_post_at(post);
+        tn_solid solid = {TN_SOLID_POST, storey, TN_NO_FACE, {at.x0, at.x1, at.y0, at.y1, z0, z1}};
+        if (form->record->layer_count > 0)
+            solid.item = tn_post_wall(house, storey, post);
+        status = tn_solids_add(solids, solid, error);
         if (status == TN_OK)
             status = tn_rectangles_add(foot, tn_post_at(post), error);
     }

@@ -36,7 +36,8 @@ typedef enum tn_solid_kind {
 const char *tn_solid_kind_text(tn_solid_kind kind);
 
 /* of: the face of a wall or flight, the cell of a roof deck or an item, the storey of a deck or post. item: a TILE_BOX
- * record. */
+ * record; of a post, the face of the wall as which it is cut into layers, or TN_NO_FACE. */
+#define TN_NO_FACE UINT32_MAX
 typedef struct tn_solid {
     tn_solid_kind kind;
     uint32_t of, item;
@@ -85,6 +86,32 @@ tn_status tn_rectangles_add(tn_rectangles *list, tn_rectangle rectangle, tn_erro
 /* Appends the union of some rectangles less others: cut at every x of their edges, stretches in y joined, neighbours
  * with the same whole list of stretches joined. */
 tn_status tn_region_cut(const tn_rectangles *of, const tn_rectangles *less, tn_rectangles *cut, tn_error *error);
+
+/* ---- layers.c: what walls, posts and decks consist of */
+
+/* The layers of a solid: `first` and the next among those of its form, across an axis, from its low side or its high
+ * one. count: 0 if it is of one piece. */
+typedef struct tn_layering {
+    const tn_house_form *form;
+    uint32_t first, count;
+    int axis;
+    bool from_high;
+} tn_layering;
+
+/* What a wall in a face is, if one stands there. */
+tn_solid_kind tn_face_wall(const tn_house *house, const tn_face *face);
+
+tn_layering tn_solid_layering(const tn_house *house, tn_solid_kind kind, uint32_t of, uint32_t item);
+
+/* How a wall is cut that stands in a face: also if it has no layers. */
+tn_layering tn_face_layering(const tn_house *house, const tn_face *face);
+
+/* What one of them takes of the solid's box. */
+tn_box tn_layer_box(const tn_layering *layers, uint32_t layer, const tn_box *box);
+
+/* The face of the wall as which a post is cut: the thicker of those that end there; of equal ones the one along x; of
+ * several the first. TN_NO_FACE: no wall is as thick as the post. */
+uint32_t tn_post_wall(const tn_house *house, uint32_t storey, const tn_post *post);
 
 /* ---- roof.c: decks, foot: [storey] the rectangles of decks, and those on which walls stand */
 tn_status tn_house_roofs(const tn_house *house, const tn_rectangles *decks, const tn_rectangles *foot,

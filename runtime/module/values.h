@@ -45,7 +45,7 @@
 #define TN_FITNESS_TERM_COUNT 6
 _Static_assert(TN_MEASURED_VERTICES == TN_FITNESS_TERM_COUNT, "what is measured follows the fitness terms");
 _Static_assert(TN_FACE_KIND_COUNT == 5, "modules number the openings that are in faces from 5 on");
-_Static_assert(TN_OF_COUNT == 6, "modules number the openings that have a material from 6 on");
+_Static_assert(TN_OF_COUNT == 6, "modules number layers and openings that have a material from 6 on");
 
 /* ---- plans */
 
@@ -93,6 +93,7 @@ typedef enum tn_comparison { TN_ALWAYS, TN_AGE_BELOW, TN_AGE_ABOVE, TN_AGE_EQUAL
 #define TN_TILES_MAX 10000u
 #define TN_TILE_BOXES_MAX 1000u
 #define TN_MATERIALS_MAX 1000u
+#define TN_LAYERS_MAX 200u
 #define TN_PRICE_MAX INT64_C(1000000000000000) /* millionths: a thousand million */
 #define TN_RATIO_MAX 1000u                     /* either number of the glazing of a room to its floor */
 #define TN_SLOPE_MAX 1000u                     /* either number of a slope */

@@ -6,8 +6,6 @@
 #include "compiler/plan/check/form.h"
 #include "runtime/base/length.h"
 
-static const char *const part_words[] = {"storey", "spine", "wall", "partition", "deck", "roof"};
-
 int64_t tn_form_length(tn_check *check, const tn_ast_word *word)
 {
     if (!word || word->broken)
@@ -59,6 +57,13 @@ void tn_form_unknown(tn_check *check, const tn_checked_form *form, const tn_ast_
         tn_help(check->diagnostics, d, "it can be %s", list);
     else
         tn_help(check->diagnostics, d, "form `%s` declares none", form->name);
+}
+
+void tn_form_twice(tn_check *check, const tn_span *span, const tn_span *first, const char *words, const char *name)
+{
+    tn_diagnostic *d = tn_report(check->diagnostics, E_PART_TWICE, *span, "`%s%s` is there twice", words, name);
+    tn_note(check->diagnostics, d, first, "the first time is here");
+    tn_help(check->diagnostics, d, "leave one of the two out");
 }
 
 uint32_t tn_form_storey(const tn_checked_form *form, const char *name)
@@ -160,6 +165,40 @@ static void set_spine(tn_check *check, tn_checked_form *form, const tn_ast_form_
         tn_form_unknown(check, form, ast->name, "zone", zones, count);
 }
 
+/* ---- how thick walls, partitions, decks and roofs are */
+
+enum { OF_WALL, OF_OUTSIDE, OF_PARTY, OF_PARTITION, OF_DECK, OF_ROOF, OF_COUNT };
+
+static const char *const of_words[OF_COUNT] = {"wall", "wall outside", "wall party", "partition", "deck", "roof"};
+
+const char *tn_form_thickness_words(const tn_ast_form_clause *ast)
+{
+    if (ast->part != TN_PART_WALL)
+        return of_words[OF_PARTITION + (int)(ast->part - TN_PART_PARTITION)];
+    bool party = ast->detail && tn_word_is(ast->detail, "party");
+    return of_words[!ast->detail ? OF_WALL : party ? OF_PARTY : OF_OUTSIDE];
+}
+
+/* Which of them a line says; OF_COUNT: of walls that are not known, then reported. */
+static int of_clause(tn_check *check, const tn_checked_form *form, const tn_ast_form_clause *ast)
+{
+    static const char *const walls[] = {"outside", "party"};
+    if (ast->part != TN_PART_WALL)
+        return OF_PARTITION + (int)(ast->part - TN_PART_PARTITION);
+    if (!ast->detail)
+        return OF_WALL;
+    for (int i = 0; i < 2; i++)
+        if (tn_word_is(ast->detail, walls[i]))
+            return OF_OUTSIDE + i;
+    tn_form_unknown(check, form, ast->detail, "kind of wall", walls, 2);
+    return OF_COUNT;
+}
+
+bool tn_form_is_halved(const tn_ast_form_clause *ast)
+{
+    return ast->part == TN_PART_WALL || ast->part == TN_PART_PARTITION;
+}
+
 void tn_form_help_half(tn_check *check, tn_diagnostic *d, const char *why, int64_t length, const char *spelling)
 {
     char text[64];
@@ -169,22 +208,66 @@ void tn_form_help_half(tn_check *check, tn_diagnostic *d, const char *why, int64
     tn_help(check->diagnostics, d, "%s: write %s", why, text);
 }
 
-static void set_thickness(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast)
+/* Returns a length above 0 in any case. */
+static int64_t read_thickness(tn_check *check, const tn_ast_form_clause *ast, int of)
 {
     int64_t length = tn_form_length(check, ast->length);
-    bool halved = ast->part == TN_PART_WALL || ast->part == TN_PART_PARTITION;
-    form->thickness[ast->part - TN_PART_WALL] = length > 0 ? length : 2;
-    if (length < 0 || (length > 0 && !(halved && length % 2)))
-        return;
+    if (length < 0 || (length > 0 && !(tn_form_is_halved(ast) && length % 2)))
+        return length > 0 ? length : 2;
     tn_diagnostic *d =
         tn_report(check->diagnostics, E_BAD_THICKNESS, ast->length->node.span,
                   length == 0 ? "a %s cannot be 0 thick" : "half of this %s is not a whole number of nanometres",
-                  part_words[ast->part]);
+                  of <= OF_PARTY ? "wall" : of_words[of]);
     if (length == 0)
         tn_help(check->diagnostics, d, "write a length above 0");
     else
         tn_form_help_half(check, d, "half of it goes to each side of a plane", length, ast->length->text);
+    return length > 0 ? length : 2;
 }
+
+/* Walls outside and party walls of a form are equally thick. */
+static void check_alike(tn_check *check, const tn_ast_form_clause *first, const tn_ast_form_clause *ast, int of)
+{
+    tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_THICKNESS, ast->length->node.span,
+                                 "walls outside and party walls of a form are equally thick");
+    tn_note(check->diagnostics, d, &first->length->node.span, "the first thickness is here");
+    tn_help(check->diagnostics, d, "write `%s %s`", of_words[of], first->length->text);
+}
+
+static void check_thicknesses(tn_check *check, tn_checked_form *form)
+{
+    const tn_ast_form_clause *of[OF_COUNT] = {NULL}, *wall = NULL;
+    for (size_t i = 0; i < sizeof form->thickness / sizeof *form->thickness; i++)
+        form->thickness[i] = 2;
+    for (TN_EACH(const tn_ast_form_clause, clause, form->ast->clauses)) {
+        if (clause->part < TN_PART_WALL || clause->part > TN_PART_ROOF)
+            continue;
+        int which = of_clause(check, form, clause);
+        if (which < OF_COUNT && of[which]) {
+            tn_form_twice(check, &clause->node.span, &of[which]->node.span, of_words[which], "");
+            continue;
+        }
+        int64_t length = read_thickness(check, clause, which < OF_COUNT ? which : OF_WALL);
+        if (which < OF_COUNT)
+            of[which] = clause;
+        if (clause->part == TN_PART_WALL && wall && length != form->thickness[0] && which < OF_COUNT)
+            check_alike(check, wall, clause, which);
+        if (clause->part != TN_PART_WALL || !wall)
+            form->thickness[clause->part - TN_PART_WALL] = length;
+        wall = clause->part == TN_PART_WALL && !wall ? clause : wall;
+    }
+    form->thickness_ast[TN_LAYERED_OUTSIDE] = of[OF_OUTSIDE] ? of[OF_OUTSIDE] : of[OF_WALL];
+    form->thickness_ast[TN_LAYERED_PARTY] = of[OF_PARTY] ? of[OF_PARTY] : of[OF_WALL];
+    form->thickness_ast[TN_LAYERED_PARTITION] = of[OF_PARTITION];
+    form->thickness_ast[TN_LAYERED_DECK] = of[OF_DECK];
+    if (of[OF_ROOF] && of[OF_ROOF]->layered.end > of[OF_ROOF]->layered.begin) {
+        tn_diagnostic *d =
+            tn_report(check->diagnostics, E_BAD_THICKNESS, of[OF_ROOF]->layered, "roofs do not consist of layers");
+        tn_help(check->diagnostics, d, "write `roof %s` alone", of[OF_ROOF]->length->text);
+    }
+}
+
+/* ---- cells */
 
 /* A function whose name is that of something else is kept: what is said of it elsewhere is right then. */
 static bool takes_name(tn_check *check, const tn_checked_form *form, const tn_ast_word *name)
@@ -227,8 +310,6 @@ static void each(tn_check *check, tn_checked_form *form, tn_form_part part)
             add_storey(check, form, clause);
         else if (part == TN_PART_SPINE)
             set_spine(check, form, clause);
-        else if (part <= TN_PART_ROOF)
-            set_thickness(check, form, clause);
         else if (part == TN_PART_SECTION)
             tn_check_choice(check, form, clause);
         else if (part <= TN_PART_FUNCTION)
@@ -250,17 +331,14 @@ static void each(tn_check *check, tn_checked_form *form, tn_form_part part)
     }
 }
 
-/* Said at most once: the spine and the thicknesses; what a form cannot be without. */
+/* The spine is said at most once; some parts a form cannot be without. */
 static void check_once(tn_check *check, tn_checked_form *form)
 {
+    static const char *const words[] = {"storey", "spine", "wall", "partition", "deck", "roof"};
     const tn_ast_form_clause *first[TN_PART_ALLOW + 1] = {NULL};
     for (TN_EACH(const tn_ast_form_clause, clause, form->ast->clauses)) {
-        if (first[clause->part] && clause->part >= TN_PART_SPINE && clause->part <= TN_PART_ROOF) {
-            tn_diagnostic *d = tn_report(check->diagnostics, E_PART_TWICE, clause->node.span, "`%s` is there twice",
-                                         part_words[clause->part]);
-            tn_note(check->diagnostics, d, &first[clause->part]->node.span, "the first time is here");
-            tn_help(check->diagnostics, d, "leave one of the two out");
-        }
+        if (clause->part == TN_PART_SPINE && first[clause->part])
+            tn_form_twice(check, &clause->node.span, &first[clause->part]->node.span, "spine", "");
         first[clause->part] = first[clause->part] ? first[clause->part] : clause;
     }
     static const tn_form_part needed[] = {TN_PART_STOREY, TN_PART_WALL, TN_PART_PARTITION, TN_PART_DECK, TN_PART_ROOF};
@@ -268,8 +346,8 @@ static void check_once(tn_check *check, tn_checked_form *form)
         if (first[needed[i]] || check->skipped)
             continue;
         tn_diagnostic *d = tn_report(check->diagnostics, E_FORM_LACKS, form->ast->name->node.span,
-                                     "form `%s` has no `%s`", form->name, part_words[needed[i]]);
-        tn_help(check->diagnostics, d, "add a line such as `%s %s`", part_words[needed[i]],
+                                     "form `%s` has no `%s`", form->name, words[needed[i]]);
+        tn_help(check->diagnostics, d, "add a line such as `%s %s`", words[needed[i]],
                 needed[i] == TN_PART_STOREY ? tn_form_in_unit(form, "ground 9'", "ground 2.7m")
                                             : tn_form_in_unit(form, "6\"", "150mm"));
     }
@@ -405,8 +483,7 @@ static void gather_allowed(tn_check *check, tn_checked_form *form)
 
 static void check_form(tn_check *check, tn_checked_form *form)
 {
-    static const tn_form_part before[] = {TN_PART_STOREY, TN_PART_SPINE,  TN_PART_WALL,     TN_PART_PARTITION,
-                                          TN_PART_DECK,   TN_PART_ROOF,   TN_PART_FUNCTION, TN_PART_VOID,
+    static const tn_form_part before[] = {TN_PART_STOREY, TN_PART_SPINE,  TN_PART_FUNCTION, TN_PART_VOID,
                                           TN_PART_NO,     TN_PART_FORBID, TN_PART_SECTION};
     check->unit = form->unit;
     gather_allowed(check, form);
@@ -415,6 +492,7 @@ static void check_form(tn_check *check, tn_checked_form *form)
     form->broken = !form->schema || !make_room(check, form) || !schema_stands(check, form);
     if (form->broken)
         return;
+    check_thicknesses(check, form);
     for (size_t i = 0; i < sizeof before / sizeof *before; i++)
         each(check, form, before[i]);
     check_once(check, form);
@@ -426,7 +504,9 @@ static void check_form(tn_check *check, tn_checked_form *form)
     each(check, form, TN_PART_FACE);
     each(check, form, TN_PART_TILE);
     tn_check_ways(check, form);
+    tn_check_layers(check, form);
     each(check, form, TN_PART_MATERIAL);
+    tn_check_layer_prices(check, form);
 }
 
 static void add_form(tn_check *check, const tn_ast_form *ast, size_t unit)

@@ -94,6 +94,12 @@ typedef struct tn_checked_way {
     int64_t length;
 } tn_checked_way;
 
+typedef struct tn_checked_layer {
+    const tn_ast_layer *ast;
+    tn_layered of;
+    int64_t thick;
+} tn_checked_layer;
+
 typedef struct tn_checked_form {
     const tn_ast_form *ast;
     const char *name;
@@ -101,7 +107,9 @@ typedef struct tn_checked_form {
     tn_checked_schema *schema; /* NULL: already reported */
     bool broken;               /* the schema is not one of houses: reported; what the form says was not read */
     uint32_t spine;
-    int64_t thickness[4]; /* wall, partition, deck, roof */
+    int64_t thickness[4];                                      /* wall, partition, deck, roof */
+    const tn_ast_form_clause *thickness_ast[TN_LAYERED_COUNT]; /* which line says of what it consists; or NULL */
+    tn_checked_layer *layers;                                  /* by what they are layers of */
     tn_checked_storey *storeys;
     tn_checked_choice *choices;
     tn_checked_cell_rule *rules; /* functions, then void, no, forbid */
@@ -115,7 +123,7 @@ typedef struct tn_checked_form {
     uint32_t index, storey_first, rule_first, shape_first; /* emitted: of its records */
     tn_ast_list allow;                                     /* tn_ast_word: warnings that it does not want */
     uint32_t storey_count, choice_count, rule_count, function_count, opening_count, face_count, tile_count;
-    uint32_t material_count;
+    uint32_t material_count, layer_count;
 } tn_checked_form;
 
 /* Of two words for one thing, those in the unit of the schema's lengths; in feet where it has none. */
@@ -124,8 +132,8 @@ const char *tn_form_in_unit(const tn_checked_form *form, const char *feet, const
 /* ---- form.c (tn_check_forms: check.h) */
 /* The length that a word says, where 0 may stand without a unit; -1 where it is none: then reported. */
 int64_t tn_form_length(tn_check *check, const tn_ast_word *word);
-/* Says why half of a length has to be whole, and the nearest in whole 1/32" or millimetres, whose half is. */
-void tn_form_help_half(tn_check *check, tn_diagnostic *d, const char *why, int64_t length, const char *spelling);
+/* A line that may stand once is there twice: E1603. words, name: how it begins. */
+void tn_form_twice(tn_check *check, const tn_span *span, const tn_span *first, const char *words, const char *name);
 /* A name that the form does not know: E1602, with the nearest of `names`. */
 void tn_form_unknown(tn_check *check, const tn_checked_form *form, const tn_ast_word *word, const char *what,
                      const char *const *names, size_t count);
@@ -182,7 +190,25 @@ uint32_t tn_form_kind(tn_check *check, const tn_checked_form *form, tn_face_rela
 void tn_check_ways(tn_check *check, tn_checked_form *form);
 void tn_check_tile(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast);
 
+/* How a line begins that says how thick something is: "wall outside". */
+const char *tn_form_thickness_words(const tn_ast_form_clause *ast);
+/* Does half of that go to each side of a plane? */
+bool tn_form_is_halved(const tn_ast_form_clause *ast);
+/* Says why half of a length has to be whole, and the nearest in whole 1/32" or millimetres, whose half is. */
+void tn_form_help_half(tn_check *check, tn_diagnostic *d, const char *why, int64_t length, const char *spelling);
+
 /* ---- form_material.c */
+/* The layers, once everything that has a name is known, and before materials. */
+void tn_check_layers(tn_check *check, tn_checked_form *form);
+/* Warns of layers without a price, if others have one. */
+void tn_check_layer_prices(tn_check *check, const tn_checked_form *form);
+/* The first layer of a name; TN_NONE where there is none. */
+uint32_t tn_form_layer_named(const tn_checked_form *form, const char *name);
+/* Where the form's items are called so: the first box of that name, counted among all boxes of its tiles; TN_NONE where
+ * there is none. */
+uint32_t tn_form_item_named(const tn_checked_form *form, const char *name);
+/* The part that a material is for, and that has this name; TN_NONE where there is none. */
+uint32_t tn_form_part_named(const tn_checked_form *form, const char *name);
 void tn_check_material(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast);
 
 #endif

@@ -230,15 +230,6 @@ static const tn_ast_form_clause *find(const tn_checked_form *form, tn_form_part 
     return NULL;
 }
 
-static void say_twice(tn_check *check, const tn_ast_form_clause *second, const tn_ast_form_clause *first,
-                      const char *what, const char *name)
-{
-    tn_diagnostic *d =
-        tn_report(check->diagnostics, E_PART_TWICE, second->node.span, "`%s%s` is there twice", what, name);
-    tn_note(check->diagnostics, d, &first->node.span, "the first time is here");
-    tn_help(check->diagnostics, d, "leave one of the two out");
-}
-
 /* Above 0, and, of a square, with a half that is whole. 0 where it is not so: reported. */
 static int64_t read_length(tn_check *check, const tn_ast_form_clause *ast, const char *what, bool halved)
 {
@@ -270,7 +261,7 @@ static void read_for(tn_check *check, tn_checked_form *form, const tn_ast_form_c
         if (function == TN_NONE)
             tn_form_unknown(check, form, word, "function", names, form->function_count);
         else if (form->ways[function].ast)
-            say_twice(check, ast, form->ways[function].ast, "way for ", word->text);
+            tn_form_twice(check, &ast->node.span, &form->ways[function].ast->node.span, "way for ", word->text);
         else
             form->ways[function] = (tn_checked_way){ast, length};
     }
@@ -282,12 +273,12 @@ static void read_ways(tn_check *check, tn_checked_form *form)
         if (clause->part == TN_PART_WAY && clause->list.count > 0) {
             read_for(check, form, clause);
         } else if (clause->part == TN_PART_WAY && form->way_ast) {
-            say_twice(check, clause, form->way_ast, "way", "");
+            tn_form_twice(check, &clause->node.span, &form->way_ast->node.span, "way", "");
         } else if (clause->part == TN_PART_WAY) {
             form->way_ast = clause;
             form->way = read_length(check, clause, "way", true);
         } else if (clause->part == TN_PART_HEADROOM && form->headroom_ast) {
-            say_twice(check, clause, form->headroom_ast, "headroom", "");
+            tn_form_twice(check, &clause->node.span, &form->headroom_ast->node.span, "headroom", "");
         } else if (clause->part == TN_PART_HEADROOM) {
             form->headroom_ast = clause;
             form->headroom = read_length(check, clause, "headroom", false);

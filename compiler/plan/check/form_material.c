@@ -1,8 +1,10 @@
-/* Checks the materials of a form: their colours and prices, what they are for and where. */
+/* Checks what the parts of a form are made of: the layers of walls, partitions and decks, and materials, their colours
+ * and prices, what they are for and where. */
 #include <stdio.h>
 #include <string.h>
 
 #include "compiler/plan/check/form.h"
+#include "runtime/base/length.h"
 #include "runtime/base/nearest.h"
 
 static void bad_material(tn_check *check, tn_span span, const char *message, const char *help)
@@ -75,8 +77,7 @@ static void read_price(tn_check *check, const tn_checked_form *form, tn_checked_
 
 /* ---- parts */
 
-/* Where the form's items are called so: the first box of that name, counted among all boxes of its tiles. */
-static uint32_t find_item(const tn_checked_form *form, const char *name)
+uint32_t tn_form_item_named(const tn_checked_form *form, const char *name)
 {
     uint32_t before = 0;
     for (uint32_t t = 0; t < form->tile_count; t++) {
@@ -89,24 +90,29 @@ static uint32_t find_item(const tn_checked_form *form, const char *name)
     return TN_NONE;
 }
 
-static uint32_t find_part(const tn_checked_form *form, const char *name)
+uint32_t tn_form_part_named(const tn_checked_form *form, const char *name)
 {
     for (uint32_t i = 0; i < TN_OF_COUNT; i++)
         if (strcmp(tn_names_OF[i], name) == 0)
             return i;
-    for (uint32_t i = 0; i < form->opening_count; i++)
-        if (strcmp(form->openings[i].ast->name->text, name) == 0)
-            return TN_OF_COUNT + i;
-    uint32_t item = find_item(form, name);
-    return item == TN_NONE ? TN_NONE : TN_OF_COUNT + form->opening_count + item;
+    uint32_t layer = tn_form_layer_named(form, name), openings = TN_OF_COUNT + form->layer_count;
+    if (layer != TN_NONE)
+        return TN_OF_COUNT + layer;
+    uint32_t opening = tn_form_opening_named(form, name);
+    if (opening != TN_NONE)
+        return openings + opening;
+    uint32_t item = tn_form_item_named(form, name);
+    return item == TN_NONE ? TN_NONE : openings + form->opening_count + item;
 }
 
 static void unknown_part(tn_check *check, const tn_checked_form *form, const tn_ast_word *word)
 {
-    const char *names[TN_OF_COUNT + TN_OPENINGS_MAX + 64];
+    const char *names[TN_OF_COUNT + TN_LAYERS_MAX + TN_OPENINGS_MAX + 64];
     size_t count = 0, room = sizeof names / sizeof *names;
     for (; count < TN_OF_COUNT; count++)
         names[count] = tn_names_OF[count];
+    for (uint32_t i = 0; i < form->layer_count; i++)
+        names[count++] = form->layers[i].ast->name->text;
     for (uint32_t i = 0; i < form->opening_count; i++)
         names[count++] = form->openings[i].ast->name->text;
     for (uint32_t t = 0; t < form->tile_count; t++)
@@ -158,7 +164,7 @@ void tn_check_material(tn_check *check, tn_checked_form *form, const tn_ast_form
     read_price(check, form, &material);
     bool known = true;
     for (TN_EACH(const tn_ast_word, word, ast->list)) {
-        uint32_t part = find_part(form, word->text);
+        uint32_t part = tn_form_part_named(form, word->text);
         known &= part != TN_NONE;
         if (part == TN_NONE)
             unknown_part(check, form, word);
@@ -171,4 +177,185 @@ void tn_check_material(tn_check *check, tn_checked_form *form, const tn_ast_form
     if (known)
         warn_for_nothing(check, form, &material);
     form->materials[form->material_count++] = material;
+}
+
+/* ---- layers */
+
+uint32_t tn_form_layer_named(const tn_checked_form *form, const char *name)
+{
+    for (uint32_t i = 0; i < form->layer_count; i++)
+        if (strcmp(form->layers[i].ast->name->text, name) == 0)
+            return i;
+    return TN_NONE;
+}
+
+static bool has_layers(const tn_ast_form_clause *ast)
+{
+    return ast && ast->layered.end > ast->layered.begin;
+}
+
+/* In the unit in which the line says its thickness; in metres what is no 1/64". */
+static const char *shown(const tn_ast_form_clause *ast, int64_t length, char text[64])
+{
+    tn_length_style style = tn_length_style_of(ast->length->text);
+    bool whole = style != TN_STYLE_FEET || length % (TN_INCH_NM / 64) == 0;
+    tn_length_write_style(length, whole ? style : TN_STYLE_METRES, text, 64);
+    return text;
+}
+
+/* A layer is a part, so that materials can be for it: nothing else that they may be for is called so. */
+static void check_layer_name(tn_check *check, const tn_checked_form *form, const tn_ast_word *name)
+{
+    const char *what = tn_form_opening_named(form, name->text) != TN_NONE ? "an opening"
+                       : tn_form_item_named(form, name->text) != TN_NONE  ? "an item"
+                                                                          : NULL;
+    for (uint32_t i = 0; i < TN_OF_COUNT; i++)
+        what = strcmp(tn_names_OF[i], name->text) == 0 ? "a part of every form" : what;
+    if (!what) {
+        tn_name_fits(check->diagnostics, name->text, name->node.span);
+        return;
+    }
+    tn_diagnostic *d = tn_report(check->diagnostics, E_PART_TWICE, name->node.span,
+                                 "the name `%.80s` is that of %s already", name->text, what);
+    tn_help(check->diagnostics, d, "choose another name, so that it is clear what materials are for");
+}
+
+static bool may_be_thick(const tn_checked_form *form, const tn_ast_form_clause *ast, int64_t length)
+{
+    bool may = !(tn_form_is_halved(ast) && length % 2);
+    for (uint32_t i = 0; ast->part == TN_PART_DECK && i < form->storey_count; i++)
+        may = may && length < form->storeys[i].height;
+    return may;
+}
+
+static void misfit(tn_check *check, const tn_checked_form *form, const tn_ast_form_clause *ast,
+                   const tn_ast_layer *thickest, int64_t sum)
+{
+    char together[64], missing[64], instead[64];
+    int64_t thick = form->thickness[ast->part - TN_PART_WALL], over = sum - thick,
+            mended = thickest->length->value - over;
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_BAD_THICKNESS, ast->length->node.span,
+                  "the layers of `%s` are %s thick together, %s %s than it", tn_form_thickness_words(ast),
+                  shown(ast, sum, together), shown(ast, over < 0 ? -over : over, missing), over < 0 ? "less" : "more");
+    tn_note(check->diagnostics, d, &thickest->node.span, "the thickest layer is here");
+    bool other = may_be_thick(form, ast, sum);
+    if (mended > 0)
+        tn_help(check->diagnostics, d, "write `%s %s`%s%s%s%s%s", thickest->name->text, shown(ast, mended, instead),
+                other ? ", or `" : "", other ? tn_form_thickness_words(ast) : "", other ? " " : "",
+                other ? together : "", other ? "`" : "");
+    else if (other)
+        tn_help(check->diagnostics, d, "write `%s %s`", tn_form_thickness_words(ast), together);
+    else
+        tn_help(check->diagnostics, d, "take %s off the layers", missing);
+}
+
+static void no_layers(tn_check *check, const tn_checked_form *form, const tn_ast_form_clause *ast)
+{
+    char length[64];
+    tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_THICKNESS, ast->layered, "`%s` has no layers",
+                                 tn_form_thickness_words(ast));
+    tn_help(check->diagnostics, d, "write its layers, such as `{ boards %s }`, or leave the braces out",
+            shown(ast, form->thickness[ast->part - TN_PART_WALL], length));
+}
+
+/* Is each layer a length above 0? *sum: of them; *thickest: the first of these. */
+static bool read_layers(tn_check *check, const tn_ast_form_clause *ast, int64_t *sum, const tn_ast_layer **thickest)
+{
+    bool good = true;
+    *sum = 0;
+    *thickest = NULL;
+    for (TN_EACH(const tn_ast_layer, layer, ast->parts)) {
+        int64_t thick = tn_form_length(check, layer->length);
+        good = good && thick > 0;
+        *sum += thick;
+        if (thick > 0 && (!*thickest || thick > (*thickest)->length->value))
+            *thickest = layer;
+        if (thick != 0)
+            continue;
+        tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_THICKNESS, layer->length->node.span,
+                                     "layer `%s` is 0 thick", layer->name->text);
+        tn_help(check->diagnostics, d, "write a length above 0, or leave the layer out");
+    }
+    return good;
+}
+
+/* What is wrong with the layers of a line. */
+static void check_line(tn_check *check, const tn_checked_form *form, const tn_ast_form_clause *ast)
+{
+    int64_t sum;
+    const tn_ast_layer *thickest;
+    if (ast->parts.count == 0) {
+        no_layers(check, form, ast);
+        return;
+    }
+    for (TN_EACH(const tn_ast_layer, layer, ast->parts))
+        check_layer_name(check, form, layer->name);
+    if (read_layers(check, ast, &sum, &thickest) && sum != form->thickness[ast->part - TN_PART_WALL])
+        misfit(check, form, ast, thickest, sum);
+}
+
+static bool add_layers(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast, tn_layered of)
+{
+    for (TN_EACH(const tn_ast_layer, layer, ast->parts)) {
+        if (!tn_check_room(check, form->layer_count, TN_LAYERS_MAX, "layer", layer->node.span, "join some of them"))
+            return false;
+        form->layers[form->layer_count++] = (tn_checked_layer){layer, of, layer->length->value};
+    }
+    return true;
+}
+
+void tn_check_layers(tn_check *check, tn_checked_form *form)
+{
+    form->layers = TN_NEW_ARRAY(check->arena, tn_checked_layer, TN_LAYERS_MAX);
+    bool room = form->layers != NULL;
+    for (int of = 0; room && of < TN_LAYERED_COUNT; of++)
+        if (has_layers(form->thickness_ast[of]))
+            room = add_layers(check, form, form->thickness_ast[of], (tn_layered)of);
+    for (int of = 0; room && of < TN_LAYERED_COUNT; of++) {
+        const tn_ast_form_clause *ast = form->thickness_ast[of];
+        bool again = of == TN_LAYERED_PARTY && ast == form->thickness_ast[TN_LAYERED_OUTSIDE];
+        if (has_layers(ast) && !again)
+            check_line(check, form, ast);
+    }
+}
+
+/* ---- prices of layers */
+
+/* A material that is for the part: the first with a price, or else the first; NULL where there is none. */
+static const tn_checked_material *material_for(const tn_checked_form *form, uint32_t part)
+{
+    const tn_checked_material *found = NULL;
+    for (uint32_t i = 0; i < form->material_count; i++) {
+        const tn_checked_material *material = &form->materials[i];
+        for (uint32_t p = 0; p < material->part_count; p++)
+            if (material->parts[p] == part && (!found || (!found->ast->length && material->ast->length)))
+                found = material;
+    }
+    return found;
+}
+
+void tn_check_layer_prices(tn_check *check, const tn_checked_form *form)
+{
+    bool priced = false;
+    for (uint32_t i = 0; i < form->material_count; i++)
+        priced = priced || form->materials[i].ast->length;
+    for (uint32_t i = 0; priced && i < form->layer_count; i++) {
+        const tn_ast_word *name = form->layers[i].ast->name;
+        const tn_checked_material *material = material_for(form, TN_OF_COUNT + i);
+        if (tn_form_layer_named(form, name->text) != i || (material && material->ast->length) ||
+            !tn_check_wanted(check, W_NO_PRICE))
+            continue;
+        const char *unit = tn_form_in_unit(form, "cf", "m3");
+        tn_diagnostic *d =
+            tn_report(check->diagnostics, W_NO_PRICE, name->node.span, "layer `%s` costs nothing", name->text);
+        if (material)
+            tn_note(check->diagnostics, d, &material->ast->node.span, "its material has no price");
+        if (material)
+            tn_help(check->diagnostics, d, "write `price NUMBER per %s` behind the colour of `%s`", unit,
+                    material->ast->name->text);
+        else
+            tn_help(check->diagnostics, d, "add a line such as `material %s \"#c8a878\" price 1 per %s for %s`",
+                    name->text, unit, name->text);
+    }
 }

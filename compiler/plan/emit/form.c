@@ -220,6 +220,17 @@ static void emit_materials(tn_emit *emit, tn_checked_form *form)
     }
 }
 
+static void emit_layers(tn_emit *emit, const tn_checked_form *form)
+{
+    for (uint32_t i = 0; i < form->layer_count; i++) {
+        const tn_checked_layer *layer = &form->layers[i];
+        tn_builder_add_LAYER(emit->builder, &(tn_layer_record){.name = text(emit, layer->ast->name),
+                                                               .of = layer->of,
+                                                               .thick = layer->thick,
+                                                               PLACE(layer->ast->node.span)});
+    }
+}
+
 static void emit_form(tn_emit *emit, tn_checked_form *form)
 {
     uint32_t counts[] = {(uint32_t)tn_builder_count(emit->builder, TN_SECTION_STOREY),
@@ -228,7 +239,8 @@ static void emit_form(tn_emit *emit, tn_checked_form *form)
                          (uint32_t)tn_builder_count(emit->builder, TN_SECTION_OPENING),
                          (uint32_t)tn_builder_count(emit->builder, TN_SECTION_FACE_LINE),
                          (uint32_t)tn_builder_count(emit->builder, TN_SECTION_TILE),
-                         (uint32_t)tn_builder_count(emit->builder, TN_SECTION_MATERIAL)};
+                         (uint32_t)tn_builder_count(emit->builder, TN_SECTION_MATERIAL),
+                         (uint32_t)tn_builder_count(emit->builder, TN_SECTION_LAYER)};
     form->storey_first = counts[0];
     form->rule_first = counts[2];
     form->shape_first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_SHAPE);
@@ -241,6 +253,7 @@ static void emit_form(tn_emit *emit, tn_checked_form *form)
     emit_faces(emit, form);
     emit_tiles(emit, form);
     emit_materials(emit, form);
+    emit_layers(emit, form);
     tn_builder_add_FORM(emit->builder, &(tn_form_record){.name = tn_builder_string(emit->builder, form->name),
                                                          .doc = text(emit, form->ast->doc),
                                                          .schema = form->schema->index,
@@ -266,6 +279,8 @@ static void emit_form(tn_emit *emit, tn_checked_form *form)
                                                          .flags = imported ? TN_IMPORTED : 0,
                                                          .way = form->way,
                                                          .headroom = form->headroom,
+                                                         .layer_first = counts[7],
+                                                         .layer_count = form->layer_count,
                                                          PLACE(form->ast->top.node.span)});
 }
 

@@ -47,6 +47,13 @@ void *tn_ast_opening_part_new(tn_parse *parse, tn_span span, tn_ast_opening_part
                                                                                                            : NULL;
 }
 
+void *tn_ast_layer_new(tn_parse *parse, tn_span span, const tn_ast_word *name, const tn_ast_word *length)
+{
+    MAKE(tn_ast_layer);
+    *node = (tn_ast_layer){.node.span = span, .name = name, .length = length};
+    return name && length ? node : NULL;
+}
+
 void *tn_ast_reach_new(tn_parse *parse, tn_span span, tn_ast_reach reach)
 {
     MAKE(tn_ast_reach);

@@ -144,7 +144,28 @@ static tn_status check_material(const tn_checker *checker, const tn_form_record 
         boxes += module->TILE_records[form->tile_first + i].box_count;
     if (material->where != TN_NO_RECORD && !decides(checker, material->where, TN_FUNCTION_SECTION, form->schema))
         return tn_refuse(checker, "material %u names a function of another kind or schema", index);
-    return check_items(checker, material->part_first, material->part_count, TN_OF_COUNT + form->opening_count + boxes);
+    return check_items(checker, material->part_first, material->part_count,
+                       TN_OF_COUNT + form->layer_count + form->opening_count + boxes);
+}
+
+/* They stand by what they are layers of, and fill it. */
+static tn_status check_layers(const tn_checker *checker, const tn_form_record *form)
+{
+    const tn_layer_record *layers = &checker->module->LAYER_records[form->layer_first];
+    const int64_t whole[TN_LAYERED_COUNT] = {[TN_LAYERED_OUTSIDE] = form->wall,
+                                             [TN_LAYERED_PARTY] = form->wall,
+                                             [TN_LAYERED_PARTITION] = form->partition,
+                                             [TN_LAYERED_DECK] = form->deck};
+    int64_t thick[TN_LAYERED_COUNT] = {0};
+    for (uint32_t i = 0; i < form->layer_count; i++) {
+        if (i > 0 && layers[i].of < layers[i - 1].of)
+            return tn_refuse(checker, "layer %u is out of order", form->layer_first + i);
+        thick[layers[i].of] += layers[i].thick;
+    }
+    for (uint32_t of = 0; of < TN_LAYERED_COUNT; of++)
+        if (thick[of] > 0 && thick[of] != whole[of])
+            return tn_refuse(checker, "layers of a %s are not as thick as it is", tn_names_LAYERED[of]);
+    return TN_OK;
 }
 
 /* ---- rules and libraries of houses */
@@ -267,6 +288,8 @@ static tn_status check_form(const tn_checker *checker, uint32_t index)
             return tn_refuse(checker, "storey %u is not higher than its deck", form->storey_first + i);
     for (uint32_t i = 0; status == TN_OK && i < form->choice_count; i++)
         status = check_choice(checker, form, form->choice_first + i);
+    if (status == TN_OK)
+        status = check_layers(checker, form);
     if (status == TN_OK)
         status = check_rules(checker, form);
     if (status == TN_OK)
@@ -459,11 +482,11 @@ static tn_status verify_after(const tn_checker *checker)
 }
 
 static const tn_section sections[] = {
-    TN_SECTION_FORM,         TN_SECTION_STOREY,     TN_SECTION_CHOICE,     TN_SECTION_SHAPE,
-    TN_SECTION_CELL_RULE,    TN_SECTION_OPENING,    TN_SECTION_FACE_LINE,  TN_SECTION_TILE,
-    TN_SECTION_TILE_BOX,     TN_SECTION_HOUSE_ITEM, TN_SECTION_HOUSE_RULE, TN_SECTION_HOUSE_LIBRARY,
-    TN_SECTION_HOUSE_CLAUSE, TN_SECTION_MEETING,    TN_SECTION_MATERIAL,   TN_SECTION_HOUSE_MEASURE,
-    TN_SECTION_HOUSE_TERM,   TN_SECTION_HOUSE_SUM,  TN_SECTION_STRINGS};
+    TN_SECTION_FORM,          TN_SECTION_STOREY,     TN_SECTION_CHOICE,     TN_SECTION_SHAPE,
+    TN_SECTION_CELL_RULE,     TN_SECTION_OPENING,    TN_SECTION_FACE_LINE,  TN_SECTION_TILE,
+    TN_SECTION_TILE_BOX,      TN_SECTION_HOUSE_ITEM, TN_SECTION_HOUSE_RULE, TN_SECTION_HOUSE_LIBRARY,
+    TN_SECTION_HOUSE_CLAUSE,  TN_SECTION_MEETING,    TN_SECTION_MATERIAL,   TN_SECTION_LAYER,
+    TN_SECTION_HOUSE_MEASURE, TN_SECTION_HOUSE_TERM, TN_SECTION_HOUSE_SUM,  TN_SECTION_STRINGS};
 
 static const tn_operand_rules operands[] = {
     {TN_OPERANDS_AREA, check_area, list_area},    {TN_OPERANDS_RATIO, check_ratio, list_ratio},

@@ -94,6 +94,12 @@ void tn_form_ready(const tn_module *module, uint32_t index, const tn_schema *sch
             rule++;
         form->kinds_end[kind] = rule;
     }
+    uint32_t layer = 0;
+    for (uint32_t of = 0; of < TN_LAYERED_COUNT; of++) {
+        while (layer < record->layer_count && tn_form_layer(form, layer)->of == of)
+            layer++;
+        form->layers_end[of] = layer;
+    }
     for (uint32_t i = 0; i < record->storey_count; i++)
         form->level[i + 1] = form->level[i] + module->STOREY_records[record->storey_first + i].height;
     if (record->way > 0)

@@ -18,6 +18,7 @@ typedef struct tn_house_form {
     uint32_t zones[TN_FIELDS_MAX]; /* the schema's zones, from back to front */
     uint32_t zone_count;
     uint32_t kinds_end[TN_CELL_RULE_KIND_COUNT]; /* rules of a kind end there; those of the next one begin */
+    uint32_t layers_end[TN_LAYERED_COUNT];       /* its layers of a kind end there; those of the next one begin */
     int64_t level[TN_STOREYS_MAX + 1];           /* the floor of each storey, and what is above the last */
     uint64_t
         bare[(TN_CELL_RULES_MAX + 63) / 64]; /* if it asks for ways: a bit for each function whose cells are bare */
@@ -79,6 +80,23 @@ static inline const tn_opening_record *tn_form_flight(const tn_house_form *form,
 {
     const tn_opening_record *declared = tn_form_declared(form, kind);
     return declared && declared->turn != TN_TURN_NONE ? declared : NULL;
+}
+
+/* The number of the first part that is an opening or flight: those of the form's layers come before. */
+static inline uint32_t tn_form_openings_part(const tn_house_form *form)
+{
+    return TN_OF_COUNT + form->record->layer_count;
+}
+
+static inline const tn_layer_record *tn_form_layer(const tn_house_form *form, uint32_t layer)
+{
+    return &form->module->LAYER_records[form->record->layer_first + layer];
+}
+
+/* The first layer of what consists of layers; those up to layers_end are its layers. */
+static inline uint32_t tn_form_layers(const tn_house_form *form, tn_layered of)
+{
+    return of == 0 ? 0 : form->layers_end[of - 1];
 }
 
 /* The height of a storey's rooms: from its floor to the deck above. */

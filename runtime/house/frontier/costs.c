@@ -589,9 +589,21 @@ static bool is_priced(const tn_house_form *form, uint32_t part, uint32_t by)
     return false;
 }
 
+/* The same of walls, party walls and partitions, or of decks; of their layers, too. */
+static bool is_built_priced(const tn_house_form *form, bool walls, uint32_t by)
+{
+    bool priced = walls ? is_priced(form, TN_OF_WALL, by) || is_priced(form, TN_OF_PARTY, by) ||
+                              is_priced(form, TN_OF_PARTITION, by)
+                        : is_priced(form, TN_OF_DECK, by);
+    for (uint32_t i = 0; !priced && i < form->record->layer_count; i++)
+        priced =
+            (tn_form_layer(form, i)->of != TN_LAYERED_DECK) == walls && is_priced(form, tn_layer_part(form, i), by);
+    return priced;
+}
+
 static bool are_items_priced(const tn_house_form *form)
 {
-    for (uint32_t part = TN_OF_COUNT + form->record->opening_count; part < tn_form_parts(form); part++)
+    for (uint32_t part = tn_form_openings_part(form) + form->record->opening_count; part < tn_form_parts(form); part++)
         if (is_priced(form, part, BY_ANY))
             return true;
     return false;
@@ -652,20 +664,19 @@ static bool is_full(const tn_house_form *form, const tn_opening_record *opening)
 static tn_status check_openings(const tn_frontier *frontier, tn_error *error)
 {
     const tn_house_form *form = frontier->form;
-    bool walls = is_priced(form, TN_OF_WALL, BY_NUMBER) || is_priced(form, TN_OF_PARTY, BY_NUMBER) ||
-                 is_priced(form, TN_OF_PARTITION, BY_NUMBER);
+    bool walls = is_built_priced(form, true, BY_NUMBER);
     for (uint32_t i = 0; i < form->record->opening_count; i++) {
         const tn_opening_record *opening = &form->module->OPENING_records[form->record->opening_first + i];
         if (walls && is_full(form, opening))
             return refuse(frontier, "an opening can leave nothing of a wall, and walls have a price each",
                           "give the price of walls per area, or per volume", error);
-        if (opening->turn != TN_TURN_NONE && is_priced(form, TN_OF_DECK, BY_NUMBER))
+        if (opening->turn != TN_TURN_NONE && is_built_priced(form, false, BY_NUMBER))
             return refuse(frontier, "flights cut decks in pieces, and these have a price each",
                           "give the price of decks per area, or per volume", error);
-        if (opening->turn == TN_TURN_QUARTER && tn_form_asks_ways(form) && is_priced(form, TN_OF_DECK, BY_ANY))
+        if (opening->turn == TN_TURN_QUARTER && tn_form_asks_ways(form) && is_built_priced(form, false, BY_ANY))
             return refuse(frontier, "how large the hole above a flight that turns a quarter is depends on its place",
                           "give decks no price, or ask nothing about costs", error);
-        if (opening->turn == TN_TURN_QUARTER && is_priced(form, TN_OF_COUNT + i, BY_VOLUME))
+        if (opening->turn == TN_TURN_QUARTER && is_priced(form, tn_form_openings_part(form) + i, BY_VOLUME))
             return refuse(frontier, "a flight that turns a quarter has a price per volume",
                           "give its price per area, or for each", error);
     }

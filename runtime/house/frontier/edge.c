@@ -389,6 +389,15 @@ static bool push_cells(const tn_inside *in, tn_frontier_role_at role, tn_key *ke
     return ok;
 }
 
+/* If costs are asked for: which layers a wall has that ends there, and in what order. */
+static bool push_layers(const tn_inside *in, const tn_face *face, tn_key *key)
+{
+    if (!in->frontier->prices.asked || in->frontier->form->record->layer_count == 0)
+        return true;
+    tn_layering layers = tn_face_layering(&in->house, face);
+    return tn_key_push(key, layers.first << 1 | layers.from_high) && tn_key_push(key, layers.count);
+}
+
 /* Walls across end at the interfaces on both sides of the tray. */
 static bool push_ends(const tn_inside *in, tn_key *key)
 {
@@ -399,7 +408,7 @@ static bool push_ends(const tn_inside *in, tn_key *key)
             face->relation == TN_FACE_UNDER || !tn_face_is_inner(face) ? 0 : tn_face_thickness(&in->house, face);
         if (thick > 0)
             ok = tn_key_push(key, face->storey) && tn_push_long(key, (uint64_t)face->at.y0) &&
-                 tn_push_long(key, (uint64_t)thick);
+                 tn_push_long(key, (uint64_t)thick) && push_layers(in, face, key);
     }
     return ok;
 }

@@ -18,7 +18,7 @@ uint32_t tn_form_parts(const tn_house_form *form)
     uint32_t boxes = 0;
     for (uint32_t i = 0; i < form->record->tile_count; i++)
         boxes += form->module->TILE_records[form->record->tile_first + i].box_count;
-    return TN_OF_COUNT + form->record->opening_count + boxes;
+    return tn_form_openings_part(form) + form->record->opening_count + boxes;
 }
 
 /* The first box that has the name of this one and is no space to keep. */
@@ -32,8 +32,20 @@ static uint32_t named_first(const tn_house_form *form, uint32_t box)
     return first;
 }
 
+uint32_t tn_layer_part(const tn_house_form *form, uint32_t layer)
+{
+    const char *name = tn_text(form->module, tn_form_layer(form, layer)->name);
+    uint32_t first = 0;
+    while (strcmp(tn_text(form->module, tn_form_layer(form, first)->name), name) != 0)
+        first++;
+    return TN_OF_COUNT + first;
+}
+
 uint32_t tn_solid_made_part(const tn_house *house, tn_solid_kind kind, uint32_t of, uint32_t item)
 {
+    tn_layering layers = tn_solid_layering(house, kind, of, item);
+    if (layers.count > 0)
+        return tn_layer_part(house->form, layers.first);
     switch (kind) {
     case TN_SOLID_OUTSIDE:
         return TN_OF_WALL;
@@ -49,10 +61,10 @@ uint32_t tn_solid_made_part(const tn_house *house, tn_solid_kind kind, uint32_t 
     case TN_SOLID_PANE:
     case TN_SOLID_LEAF:
     case TN_SOLID_FLIGHT:
-        return TN_OF_COUNT + house->faces[of].kind - TN_FACE_KIND_COUNT;
+        return tn_form_openings_part(house->form) + house->faces[of].kind - TN_FACE_KIND_COUNT;
     case TN_SOLID_ITEM:
-        return TN_OF_COUNT + house->form->record->opening_count + named_first(house->form, item) -
-               first_box(house->form);
+        return tn_form_openings_part(house->form) + house->form->record->opening_count +
+               named_first(house->form, item) - first_box(house->form);
     default:
         return TN_OF_ROOF;
     }
@@ -64,6 +76,9 @@ const char *tn_form_part_text(const tn_house_form *form, uint32_t part)
     if (part < TN_OF_COUNT)
         return tn_names_OF[part];
     part -= TN_OF_COUNT;
+    if (part < form->record->layer_count)
+        return tn_text(module, tn_form_layer(form, part)->name);
+    part -= form->record->layer_count;
     if (part < form->record->opening_count)
         return tn_text(module, module->OPENING_records[form->record->opening_first + part].name);
     return tn_text(module, module->TILE_BOX_records[first_box(form) + part - form->record->opening_count].name);
@@ -134,6 +149,22 @@ static void add_box(const tn_house *house, const tn_solid *s, bool counts, tn_co
     line->count += counts;
     mpq_clear(volume);
     mpz_clear(area);
+}
+
+/* Each layer of a solid, on the line of its part. Those of a post are as wide as they are long along its wall, like
+ * those of walls. */
+static void add_layers(const tn_house *house, const tn_solid *s, const tn_layering *layers, bool counts,
+                       const tn_costs *costs)
+{
+    for (uint32_t i = layers->first; i < layers->first + layers->count; i++) {
+        tn_solid layer = *s;
+        layer.at = tn_layer_box(layers, i, &s->at);
+        if (s->kind == TN_SOLID_POST) { /* a piece of that wall */
+            layer.of = s->item;
+            layer.kind = tn_face_wall(house, &house->faces[s->item]);
+        }
+        add_box(house, &layer, counts, &costs->lines[tn_layer_part(house->form, i)]);
+    }
 }
 
 static void set_fraction(mpq_t to, tn_fraction fraction)
@@ -293,7 +324,11 @@ tn_status tn_house_costs(const tn_house *house, const tn_solids *solids, tn_cost
     for (size_t i = 0; status == TN_OK && i < solids->box_count; i++) {
         const tn_solid *s = &solids->boxes[i];
         bool pieces = is_wall(s->kind) || s->kind == TN_SOLID_FLIGHT;
-        add_box(house, s, !pieces || s->of != wall, line_of(house, s, costs));
+        tn_layering layers = tn_solid_layering(house, s->kind, s->of, s->item);
+        if (layers.count > 0)
+            add_layers(house, s, &layers, !pieces || s->of != wall, costs);
+        else
+            add_box(house, s, !pieces || s->of != wall, line_of(house, s, costs));
         wall = pieces ? s->of : TN_NO_CELL;
     }
     for (size_t i = 0; status == TN_OK && i < leaves.box_count; i++)

@@ -53,6 +53,11 @@ static void put_rectangle(tn_json *json, const char *key, tn_rectangle r)
     put_lengths(json, key, (const int64_t[]){r.x0, r.x1, r.y0, r.y1}, 4);
 }
 
+static void put_box(tn_json *json, tn_box b)
+{
+    put_lengths(json, "box", (const int64_t[]){b.x0, b.x1, b.y0, b.y1, b.z0, b.z1}, 6);
+}
+
 static void put_area(tn_json *json, const char *key, tn_int128 area)
 {
     tn_buffer text = {0};
@@ -206,6 +211,22 @@ static void put_rooms(const tn_house *house, const uint32_t *rooms, tn_json *jso
     tn_json_list_end(json);
 }
 
+/* The layers of a solid, each with its box. */
+static void put_layers(const tn_house *house, const tn_solid *s, tn_json *json)
+{
+    tn_layering layers = tn_solid_layering(house, s->kind, s->of, s->item);
+    if (layers.count == 0)
+        return;
+    tn_json_list(json, "layers");
+    for (uint32_t i = layers.first; i < layers.first + layers.count; i++) {
+        tn_json_object(json, NULL);
+        tn_json_string(json, "name", tn_text(house->form->module, tn_form_layer(house->form, i)->name));
+        put_box(json, tn_layer_box(&layers, i, &s->at));
+        tn_json_object_end(json);
+    }
+    tn_json_list_end(json);
+}
+
 static void put_solids(const tn_house *house, const tn_solids *solids, tn_json *json)
 {
     const tn_module *module = house->form->module;
@@ -217,7 +238,8 @@ static void put_solids(const tn_house *house, const tn_solids *solids, tn_json *
         tn_json_count(json, "of", s->of);
         if (s->kind == TN_SOLID_ITEM)
             tn_json_string(json, "name", tn_text(module, module->TILE_BOX_records[s->item].name));
-        put_lengths(json, "box", (const int64_t[]){s->at.x0, s->at.x1, s->at.y0, s->at.y1, s->at.z0, s->at.z1}, 6);
+        put_box(json, s->at);
+        put_layers(house, s, json);
         tn_json_object_end(json);
     }
     tn_json_list_end(json);

@@ -137,6 +137,51 @@ static void test_changes_with_the_right_hash_are_harmless(void **state)
     assert_true(refused > 1000 && loaded > 100); /* both happen, or the test tests nothing */
 }
 
+/* A form whose walls have layers of lengths that nothing else has. */
+static const char layered[] = "schema s { front = 4m  zone body role band = space(6m) role void }\n"
+                              "form f of s { storey ground 3m wall outside 200mm { boards 63mm, studs 137mm }\n"
+                              "  partition 100mm { studs 100mm } deck 300mm roof 200mm function hall at cell(body) }\n";
+
+/* Puts another number, of eight bytes, in the place of one that is there once. */
+static void put_in_place(uint8_t *bytes, size_t size, int64_t from, int64_t to)
+{
+    size_t found = 0, at = 0;
+    for (size_t i = 0; i + sizeof from <= size; i++)
+        if (memcmp(bytes + i, &from, sizeof from) == 0) {
+            found++;
+            at = i;
+        }
+    assert_int_equal(found, 1);
+    memcpy(bytes + at, &to, sizeof to);
+    tn_module_rehash(bytes, size);
+}
+
+static void test_layers_fill_what_they_are_layers_of(void **state)
+{
+    (void)state;
+    static const struct {
+        int64_t thick;
+        const char *reason;
+    } changes[] = {{INT64_C(137000001), "not as thick as it is"},
+                   {INT64_C(136999999), "not as thick as it is"},
+                   {INT64_C(-137000000), "thick"},
+                   {INT64_C(137000000), NULL}};
+    tn_compilation compilation;
+    assert_int_equal(compile_text("layered.plan", layered, sizeof layered - 1, &options, &compilation), TN_OK);
+    for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
+        tn_module *module;
+        tn_error error = {0};
+        put_in_place(compilation.module, compilation.module_size, i == 0 ? INT64_C(137000000) : changes[i - 1].thick,
+                     changes[i].thick);
+        tn_status status = tn_module_load(compilation.module, compilation.module_size, NULL, &module, &error);
+        assert_int_equal(status, changes[i].reason ? TN_INVALID : TN_OK);
+        if (changes[i].reason && !strstr(error.message, changes[i].reason))
+            fail_msg("refused as: %s", error.message);
+        tn_module_free(module);
+    }
+    tn_compilation_clear(&compilation);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -145,6 +190,7 @@ int main(void)
         cmocka_unit_test(test_every_truncation_is_refused),
         cmocka_unit_test(test_every_changed_byte_is_refused),
         cmocka_unit_test(test_changes_with_the_right_hash_are_harmless),
+        cmocka_unit_test(test_layers_fill_what_they_are_layers_of),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

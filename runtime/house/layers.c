@@ -1,0 +1,99 @@
+/* What walls, posts and decks consist of: layers, from the outside or from the first cell of a face inwards, from the
+ * top of a deck down. A layer is the solid's box, cut across. */
+#include "runtime/house/solids.h"
+
+tn_solid_kind tn_face_wall(const tn_house *house, const tn_face *face)
+{
+    (void)house;
+    return face->relation == TN_FACE_OUTSIDE ? TN_SOLID_OUTSIDE
+           : face->kind == TN_FACE_PARTY     ? TN_SOLID_PARTY
+                                             : TN_SOLID_PARTITION;
+}
+
+static tn_layering layers_of(const tn_house_form *form, tn_layered of)
+{
+    uint32_t first = tn_form_layers(form, of);
+    return (tn_layering){.form = form, .first = first, .count = form->layers_end[of] - first};
+}
+
+/* Is the outside, or the first cell, at the low side of the face? */
+static bool begins_low(const tn_face *face)
+{
+    bool low = face->side == TN_HOUSE_BACK || face->side == TN_HOUSE_LEFT; /* of the first cell */
+    return low == (face->relation == TN_FACE_OUTSIDE);
+}
+
+tn_layering tn_face_layering(const tn_house *house, const tn_face *face)
+{
+    static const tn_layered kinds[] = {[TN_SOLID_OUTSIDE] = TN_LAYERED_OUTSIDE,
+                                       [TN_SOLID_PARTY] = TN_LAYERED_PARTY,
+                                       [TN_SOLID_PARTITION] = TN_LAYERED_PARTITION};
+    tn_layering layers = layers_of(house->form, kinds[tn_face_wall(house, face)]);
+    layers.axis = face->at.x0 == face->at.x1 ? 0 : 1;
+    layers.from_high = !begins_low(face);
+    return layers;
+}
+
+tn_layering tn_solid_layering(const tn_house *house, tn_solid_kind kind, uint32_t of, uint32_t item)
+{
+    tn_layering layers = {.form = house->form};
+    if (house->form->record->layer_count == 0)
+        return layers;
+    switch (kind) {
+    case TN_SOLID_OUTSIDE:
+    case TN_SOLID_PARTY:
+    case TN_SOLID_PARTITION:
+        return tn_face_layering(house, &house->faces[of]);
+    case TN_SOLID_POST:
+        return item == TN_NO_FACE ? layers : tn_face_layering(house, &house->faces[item]);
+    case TN_SOLID_DECK:
+    case TN_SOLID_ROOFDECK:
+        layers = layers_of(house->form, TN_LAYERED_DECK);
+        layers.axis = 2;
+        layers.from_high = true;
+        return layers;
+    default:
+        return layers;
+    }
+}
+
+tn_box tn_layer_box(const tn_layering *layers, uint32_t layer, const tn_box *box)
+{
+    tn_box cut = *box;
+    int64_t *low = layers->axis == 0   ? &cut.x0
+                   : layers->axis == 1 ? &cut.y0
+                                       : &cut.z0,
+            *high = layers->axis == 0   ? &cut.x1
+                    : layers->axis == 1 ? &cut.y1
+                                        : &cut.z1,
+            before = 0, thick = tn_form_layer(layers->form, layer)->thick;
+    for (uint32_t i = layers->first; i < layer; i++)
+        before += tn_form_layer(layers->form, i)->thick;
+    if (layers->from_high) {
+        *high -= before;
+        *low = *high - thick;
+    } else {
+        *low += before;
+        *high = *low + thick;
+    }
+    return cut;
+}
+
+uint32_t tn_post_wall(const tn_house *house, uint32_t storey, const tn_post *post)
+{
+    uint32_t walls[2] = {TN_NO_FACE, TN_NO_FACE}; /* along x, along y */
+    for (uint32_t i = 0; i < house->face_count; i++) {
+        const tn_face *face = &house->faces[i];
+        bool ends =
+            (face->at.x0 == post->x && face->at.y0 == post->y) || (face->at.x1 == post->x && face->at.y1 == post->y);
+        if (!ends || face->storey != storey)
+            continue;
+        int along = face->at.x0 == face->at.x1;
+        int64_t thick = tn_face_thickness(house, face);
+        if (walls[along] == TN_NO_FACE && thick > 0 && thick == (along ? post->thick_x : post->thick_y))
+            walls[along] = i;
+    }
+    if (post->thick_x == post->thick_y)
+        return walls[0] != TN_NO_FACE ? walls[0] : walls[1];
+    return walls[post->thick_x > post->thick_y];
+}
