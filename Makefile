@@ -9,7 +9,7 @@ SECONDS ?= 600
 FIRST ?= $(shell date +%s)
 TEST = ctest --test-dir build --output-on-failure --timeout 1200 -j $(TEST_JOBS)
 
-.PHONY: help packages build demo check check-long check-parts check-editor check-report check-studio check-studio-quick check-scale check-sanitizers check-arm check-arm-syntax wasm check-wasm python check-python lint package check-package bench bench-place bench-scale bench-studio bench-python fuzz search install uninstall clean
+.PHONY: help packages build demo check check-long check-parts check-editor check-report check-studio check-studio-quick check-scale check-sanitizers check-arm check-arm-syntax wasm check-wasm python check-python site check-site lint package check-package bench bench-place bench-scale bench-studio bench-python fuzz search install uninstall clean
 
 help:
 	@echo 'make demo        build tartan, count a plan library, draw a sheet of it (into demo/)'
@@ -29,6 +29,8 @@ help:
 	@echo 'make check-wasm  test these under Node, and compare their results with those here'
 	@echo 'make python      build the Python package: two wheels (into build-python/), and python3-tartan with make package'
 	@echo 'make check-python  test that: its calls against the command, its wheels, its notebooks'
+	@echo 'make site        make the documentation as static pages, with the playground if make wasm made it (into build-site/)'
+	@echo 'make check-site  test that its links lead somewhere, and that the files to try pass'
 	@echo 'make lint        look over the sources with clang-tidy'
 	@echo 'make bench       print how fast it is here'
 	@echo 'make bench-place print how fast parts are placed, counted and drawn here'
@@ -117,6 +119,15 @@ check-python: python-packages build
 python-packages: packages
 	@tools/install-packages tools/python-packages.txt
 
+site: build
+	@tools/install-packages tools/site-packages.txt
+	@tools/build-site build build-site build-wasm/site
+
+# Its links, its anchors, and the files that it opens in the playground.
+check-site: build
+	@tools/install-packages tools/site-packages.txt
+	@ctest --test-dir build --output-on-failure -R '^cli\.site$$' --no-tests=error
+
 lint: build
 	@tools/lint build
 
@@ -152,4 +163,4 @@ uninstall:
 	@DESTDIR='$(DESTDIR)' cmake -DMANIFEST=build/install_manifest.txt -P cmake/uninstall.cmake
 
 clean:
-	@rm -rf build build-python build-wasm build-arm build-asan build-asan-quick build-fuzz build-package build-parts demo
+	@rm -rf build build-python build-site build-wasm build-arm build-asan build-asan-quick build-fuzz build-package build-parts demo

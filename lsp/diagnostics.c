@@ -85,12 +85,28 @@ static json_t *to_json(tn_document *document, tn_file_analysis *analysis, const 
     return result;
 }
 
-json_t *tn_lsp_diagnostics(tn_document *document, tn_file_analysis *analysis)
+/* Links the code to its page. */
+static void link_code(json_t *diagnostic, const char *pages)
+{
+    const char *code = json_string_value(json_object_get(diagnostic, "code"));
+    size_t size = strlen(pages);
+    if (code && code[0])
+        json_object_set_new(
+            diagnostic, "codeDescription",
+            json_pack("{s:o}", "href",
+                      json_sprintf("%s%serrors/%s.html", pages, size && pages[size - 1] == '/' ? "" : "/", code)));
+}
+
+json_t *tn_lsp_diagnostics(tn_document *document, tn_file_analysis *analysis, const char *pages)
 {
     const tn_diagnostics *found = &analysis->compilation.diagnostics;
     json_t *list = json_array();
-    for (size_t i = 0; i < found->count && analysis->compilation.sources.count > 0; i++)
-        json_array_append_new(list, to_json(document, analysis, &found->items[i]));
+    for (size_t i = 0; i < found->count && analysis->compilation.sources.count > 0; i++) {
+        json_t *diagnostic = to_json(document, analysis, &found->items[i]);
+        if (pages)
+            link_code(diagnostic, pages);
+        json_array_append_new(list, diagnostic);
+    }
     return json_pack("{s:s,s:I,s:o}", "uri", document->uri, "version", document->version, "diagnostics", list);
 }
 

@@ -31,6 +31,7 @@ struct tn_exchange {
     double time;          /* when the next review may begin (tn_seconds) */
     bool initialized, shut_down, ended, failed;
     bool resolves;      /* the client asks for the edits of actions when they are chosen */
+    char *pages;        /* where the documentation's pages are, for links of codes; or NULL */
     int error;          /* of the request at hand; 0: none */
     const char *reason; /* what to say about it */
     char why[400];      /* a reason that was made for one request */
@@ -133,9 +134,26 @@ static bool takes_edits_later(const json_t *params)
     return false;
 }
 
+/* The address of the documentation's pages that the client names, or NULL; only one that a browser opens. */
+static const char *pages_of(const json_t *params)
+{
+    const char *pages =
+        json_string_value(json_object_get(json_object_get(params, "initializationOptions"), "documentation"));
+    bool opens = pages && (strncmp(pages, "https://", 8) == 0 || strncmp(pages, "http://", 7) == 0 ||
+                           strncmp(pages, "file:///", 8) == 0);
+    return opens ? pages : NULL;
+}
+
+static bool take_pages(tn_exchange *s, const json_t *params)
+{
+    const char *pages = pages_of(params);
+    s->pages = pages ? strdup(pages) : NULL;
+    return !pages || s->pages;
+}
+
 static json_t *initialize(tn_exchange *s, const json_t *params)
 {
-    if (!s->initialized && !take_roots(s, params))
+    if (!s->initialized && (!take_roots(s, params) || !take_pages(s, params)))
         return NULL;
     s->initialized = true;
     s->resolves = takes_edits_later(params);
@@ -422,7 +440,7 @@ void tn_exchange_work(tn_exchange *s)
         tn_file_analysis *analysis = tn_workspace_analyse(&s->workspace, document);
         document->dirty = false;
         if (analysis)
-            notify(s, "textDocument/publishDiagnostics", tn_lsp_diagnostics(document, analysis));
+            notify(s, "textDocument/publishDiagnostics", tn_lsp_diagnostics(document, analysis, s->pages));
     }
 }
 
@@ -546,5 +564,6 @@ void tn_exchange_free(tn_exchange *s)
         return;
     json_decref(s->sent);
     tn_workspace_clear(&s->workspace);
+    free(s->pages);
     free(s);
 }

@@ -5,8 +5,9 @@
 
 #include "lsp/workspace.h"
 
-/* The parameters of textDocument/publishDiagnostics. */
-json_t *tn_lsp_diagnostics(tn_document *document, tn_file_analysis *analysis);
+/* The parameters of textDocument/publishDiagnostics. pages: the address of the documentation's pages, one of which each
+ * code then links to; or NULL. */
+json_t *tn_lsp_diagnostics(tn_document *document, tn_file_analysis *analysis, const char *pages);
 
 json_t *tn_lsp_outline(tn_document *document, tn_file_analysis *analysis);
 json_t *tn_lsp_hover(tn_document *document, tn_file_analysis *analysis, size_t offset);

@@ -12,6 +12,7 @@ function newClient() {
     const server = {command, args: ['lsp']};
     const options = {
         documentSelector: languages.flatMap((language) => ['file', 'untitled'].map((scheme) => ({language, scheme}))),
+        initializationOptions: {documentation: vscode.workspace.getConfiguration('tartan').get('documentation') || ''},
     };
     return new LanguageClient('tartan', 'Tartan', server, options);
 }
@@ -45,7 +46,7 @@ async function restart() {
 async function activate(context) {
     context.subscriptions.push(vscode.commands.registerCommand('tartan.restart', restart));
     context.subscriptions.push(vscode.workspace.onDidChangeConfiguration((event) => {
-        if (event.affectsConfiguration('tartan.path')) {
+        if (event.affectsConfiguration('tartan.path') || event.affectsConfiguration('tartan.documentation')) {
             restart();
         }
     }));

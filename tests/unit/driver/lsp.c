@@ -631,7 +631,8 @@ static void await_diagnostics(live *l, int version, const char *wanted)
     }
 }
 
-static void start_live(live *l)
+/* options: the client's initializationOptions. */
+static void start_live_with(live *l, json_t *options)
 {
     int there[2], back[2];
     *l = (live){0};
@@ -642,8 +643,14 @@ static void start_live(live *l)
     l->input = there[0];
     l->output = fdopen(back[1], "w");
     assert_int_equal(pthread_create(&l->thread, NULL, serve_live, l), 0);
-    json_decref(hear_answer(l, ask(&l->session, "initialize", json_object())));
+    json_t *params = json_pack("{s:o}", "initializationOptions", options);
+    json_decref(hear_answer(l, ask(&l->session, "initialize", params)));
     tell(&l->session, "initialized", json_object());
+}
+
+static void start_live(live *l)
+{
+    start_live_with(l, json_null());
 }
 
 static void finish_live(live *l)
@@ -656,6 +663,30 @@ static void finish_live(live *l)
     fclose(l->session.input);
     fclose(l->heard);
     close(l->input);
+}
+
+/* What is said of a file links its codes to pages so, if the client says that the pages are there. */
+static bool links_codes(const char *pages, const char *link)
+{
+    live l;
+    start_live_with(&l, json_pack("{s:s}", "documentation", pages));
+    open_document(&l.session, "file:///a.plan", "rule a = b\n");
+    fflush(l.session.input);
+    json_t *message = hear(&l);
+    bool found = mentions(message, link);
+    assert_true(mentions(message, "\"code\":\"E"));
+    json_decref(message);
+    finish_live(&l);
+    return found;
+}
+
+static void test_codes_have_pages(void **state)
+{
+    (void)state;
+    assert_true(links_codes("https://a.example/tartan", "{\"href\":\"https://a.example/tartan/errors/E0"));
+    assert_true(links_codes("file:///usr/share/doc/", "{\"href\":\"file:///usr/share/doc/errors/E0"));
+    assert_false(links_codes("", "codeDescription"));
+    assert_false(links_codes("command:workbench.action", "codeDescription"));
 }
 
 static const char related[] =
@@ -1259,6 +1290,7 @@ int main(void)
         cmocka_unit_test(test_rename_across_documents),
         cmocka_unit_test(test_schema_made_from_another),
         cmocka_unit_test(test_rename_in_files_that_are_not_open),
+        cmocka_unit_test(test_codes_have_pages),
         cmocka_unit_test(test_wrong_headers),
         cmocka_unit_test(test_wrong_messages),
         cmocka_unit_test(test_meaning),
