@@ -293,18 +293,44 @@ static tn_status count_lengths(const counting *c, tn_error *error)
 static tn_status describe(const counting *c, tn_error *error)
 {
     const tn_module *module = c->ready->schema->module;
+    const tn_library *library = c->ready->library;
     tn_counted_plans *counted = c->counted;
+    size_t apart = tn_library_apart(library);
     char hash[33];
-    tn_library_hash(c->ready->library, hash);
     counted->library = tn_text(module, c->ready->record->name);
     counted->doc = tn_text(module, c->ready->record->doc);
-    counted->states = tn_library_states(c->ready->library);
-    counted->has_states = !tn_library_within(c->ready->library);
+    counted->states = tn_library_states(library);
+    counted->has_states = !tn_library_within(library);
+    counted->has_apart = apart != SIZE_MAX;
+    counted->has_hash = !counted->has_apart;
+    if (counted->has_apart) {
+        counted->apart = tn_text(module, clause_record(c, (uint32_t)apart)->name);
+        return TN_OK;
+    }
+    tn_library_hash(library, hash);
     counted->hash = strdup(hash);
     return counted->hash ? TN_OK : tn_fail_memory(error);
 }
 
 /* ---- clauses */
+
+/* If a clause is counted apart, it is not known what only each of the others keeps out: says so, once. */
+static void note_apart(const counting *c)
+{
+    const tn_module *module = c->ready->schema->module;
+    size_t apart = tn_library_apart(c->ready->library);
+    tn_error note;
+    if (apart == SIZE_MAX)
+        return;
+    const tn_clause_record *clause = clause_record(c, (uint32_t)apart);
+    tn_fail(&note, TN_LIMIT, E_TOO_MANY_STATES,
+            "what only one clause keeps out is counted for `%.80s` alone: with it the automaton of this library passes "
+            "a limit",
+            tn_text(module, clause->name));
+    tn_error_help(&note, "give fewer trays with --trays, or raise the limit with --max-states");
+    note.code_offset = module->FUNCTION_records[clause->holds].code_begin;
+    tn_finding_limit(c->session->opened, &note, NULL);
+}
 
 /* A clause past a limit leaves the other counts as they are: a note says which it is. */
 static tn_status count_clause(const counting *c, uint32_t i, mpz_t out, mpz_t only, uint64_t *states, tn_error *error)
@@ -314,6 +340,8 @@ static tn_status count_clause(const counting *c, uint32_t i, mpz_t out, mpz_t on
     *states = taken;
     if (status != TN_LIMIT)
         return status;
+    if (tn_library_apart(c->ready->library) != SIZE_MAX && mpz_sgn(out) >= 0)
+        return TN_OK;
     tn_finding_uncounted(c->session->opened, tn_text(c->ready->schema->module, clause_record(c, i)->name), error);
     return TN_OK;
 }
@@ -355,6 +383,8 @@ static tn_status count_clauses(const counting *c, tn_error *error)
         status = is_rule(c, i) ? count_rule(c, i, &counted->rules.items[rule++], error)
                                : count_requirement(c, i, &counted->requirements.items[requirement++], error);
     tn_session_ends(c->session);
+    if (status == TN_OK)
+        note_apart(c);
     counted->has_rules = counted->has_requirements = true;
     return status;
 }
@@ -363,7 +393,9 @@ static tn_status count_plans(tn_session *session, const tn_count_request *reques
 {
     counting c = {.session = session, .mirror = request->mirror};
     tn_error error;
-    tn_status status = tn_session_library(session, &request->subject, &c.ready);
+    tn_status status = (c.mirror ? tn_session_library : tn_session_counted)(session, &request->subject, &c.ready);
+    if (status == TN_OK && tn_schema_of_plans(c.ready->schema)) /* rows of plans are counted state by state */
+        status = tn_session_library(session, &request->subject, &c.ready);
     if (status != TN_OK)
         return status;
     status = tn_reply_new(&tn_message_counted_plans, answer, &error);

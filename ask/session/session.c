@@ -180,7 +180,8 @@ static bool same_options(const tn_library_options *a, const tn_library_options *
 
 static bool is_kept(const tn_session *session, const char *name, const tn_library_options *options)
 {
-    if (!session->library.library || !same_options(&session->options, options))
+    if (!session->library.library || !same_options(&session->options, options) ||
+        (tn_library_apart(session->library.library) != SIZE_MAX && !options->only_counted))
         return false;
     return name ? strcmp(name, tn_text(session->opened->module, session->library.record->name)) == 0
                 : session->only_one;
@@ -204,6 +205,13 @@ static tn_status make_ready(tn_session *session, const char *name, const tn_libr
 tn_status tn_session_library(tn_session *session, const tn_library_asked *asked, const tn_ready_library **ready)
 {
     const tn_library_options options = tn_asked_options(asked);
+    return make_ready(session, asked->library, &options, ready);
+}
+
+tn_status tn_session_counted(tn_session *session, const tn_library_asked *asked, const tn_ready_library **ready)
+{
+    tn_library_options options = tn_asked_options(asked);
+    options.only_counted = true;
     return make_ready(session, asked->library, &options, ready);
 }
 

@@ -66,8 +66,11 @@ static void count_plans_text(const tn_counted_plans *c, FILE *out)
     char *pruned = tn_digits(c->pruned, true);
     fprintf(out, "%s%s", c->library, *c->doc ? ": " : "");
     tn_write_clean(out, c->doc, strlen(c->doc));
-    fprintf(out, "\npruned: %s\nstates: %" PRIu64 "%s\n\n", pruned ? pruned : "?", c->states,
+    fprintf(out, "\npruned: %s\nstates: %" PRIu64 "%s\n", pruned ? pruned : "?", c->states,
             c->has_states ? "" : " within these lengths");
+    if (c->has_apart)
+        fprintf(out, "counted apart: %s\n", c->apart);
+    fputc('\n', out);
     free(pruned);
     write_lengths(c, out);
 }

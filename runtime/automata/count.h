@@ -145,4 +145,9 @@ tn_status tn_count_range(const tn_sparse *sparse, const uint32_t *sizes, uint32_
 tn_status tn_count_both(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation operation, const uint32_t *sizes,
                         uint32_t min, uint32_t max, const char *what, tn_bounds *bounds, mpz_t count, tn_error *error);
 
+/* The same for each of the lengths 0..max, with a row of counts for each state of `a` that words lead to, one for each
+ * state of b (count_sweep.c): counts is an initialised array of max + 1. The bounds are of the steps. */
+tn_status tn_count_both_lengths(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation operation, const uint32_t *sizes,
+                                uint32_t max, const char *what, tn_bounds *bounds, mpz_t *counts, tn_error *error);
+
 #endif

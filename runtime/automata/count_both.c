@@ -115,6 +115,28 @@ static tn_status look_ahead_b(tn_both *both, tn_error *error)
     return TN_OK;
 }
 
+tn_status tn_agreement_away(const tn_agreement *of, uint32_t **away, tn_error *error)
+{
+    tn_both both = {.of = *of};
+    tn_status status = look_ahead_b(&both, error);
+    *away = both.away_b;
+    return status;
+}
+
+tn_status tn_agreement_make(tn_agreement *of, const uint32_t *sizes, tn_error *error)
+{
+    if (!tn_splits_make(&of->splits, of->a, of->b))
+        return tn_fail_memory(error);
+    return tn_column_weights(sizes, of->a->letters, of->splits.column, of->splits.columns, &of->weights, error);
+}
+
+void tn_agreement_clear(tn_agreement *of)
+{
+    tn_splits_clear(&of->splits);
+    free(of->weights);
+    of->weights = NULL;
+}
+
 /* ---- steps of the first automaton */
 
 static tn_status make_steps(tn_both *both, tn_error *error)
@@ -296,8 +318,7 @@ static tn_status count_words(tn_both *both, tn_error *error)
 
 static void both_clear(tn_both *both)
 {
-    tn_splits_clear(&both->of.splits);
-    free(both->of.weights);
+    tn_agreement_clear(&both->of);
     free(both->away_a);
     free(both->away_b);
     free(both->table);
@@ -355,9 +376,7 @@ static tn_status count_pairs(tn_both *both, const uint32_t *sizes, bool *fits, t
 {
     tn_agreement *of = &both->of;
     bool swept = false;
-    tn_status status = tn_splits_make(&of->splits, of->a, of->b) ? TN_OK : tn_fail_memory(error);
-    if (status == TN_OK)
-        status = tn_column_weights(sizes, of->a->letters, of->splits.column, of->splits.columns, &of->weights, error);
+    tn_status status = tn_agreement_make(of, sizes, error);
     uint64_t limbs = status == TN_OK ? tn_count_limbs(of->weights, of->splits.columns, of->max) : 0;
     *fits = limbs <= TN_FORWARD_LIMBS_MAX;
     if (status != TN_OK || !*fits)

@@ -17,6 +17,13 @@ typedef struct tn_agreement {
     uint64_t *weights; /* [splits.columns] */
 } tn_agreement;
 
+/* Fills in the splits, and the weights by the symbols of each letter. Clear it also after a failure. */
+tn_status tn_agreement_make(tn_agreement *of, const uint32_t *sizes, tn_error *error);
+void tn_agreement_clear(tn_agreement *of);
+
+/* *away: for each state of b the symbols until it answers as wanted, at least, or UINT32_MAX. The caller frees it. */
+tn_status tn_agreement_away(const tn_agreement *of, uint32_t **away, tn_error *error);
+
 /* Symbols of the shortest and the longest word from each state of a folded automaton. */
 void tn_sweep_measure(const tn_sparse *a, uint32_t *shortest, uint32_t *longest);
 

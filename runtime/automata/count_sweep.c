@@ -1,14 +1,20 @@
-/* Counts the words that two automata agree about, where the first has no cycle and holds words of the lengths asked
- * about only: its states are taken once each, in their order, in which edges only lead forward. So there is one number
- * for each pair of states, whatever the length of the words that lead there, and no pair is looked up. */
+/* Counts the words that two automata agree about, with a row of numbers for each state of the first: one for each state
+ * of the second. No pair is looked up, and none has edges of its own.
+ *
+ * Where the first has no cycle and holds words of the lengths asked about only, its states are taken once each, in
+ * their order, in which edges only lead forward: the numbers are of words of whatever length. Otherwise, and to tell
+ * lengths apart, they are taken layer by layer (walk.h), as if the row were a polynomial whose powers are the states of
+ * the second. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "runtime/automata/count_pairs.h"
 
+#include "runtime/automata/walk.h"
 #include "runtime/base/array.h"
 
-#define CHECK_EVERY 1024u /* states between two looks at the bounds */
+#define ROWS_MAX (UINT64_C(1) << 32) /* bytes of a layer: 4 GiB */
+#define CHECK_EVERY 1024u            /* states between two looks at the bounds */
 
 /* Where symbols lead from the state in hand, told apart by what the second automaton tells apart. */
 typedef struct tn_count_step {
@@ -38,9 +44,8 @@ void tn_sweep_measure(const tn_sparse *a, uint32_t *shortest, uint32_t *longest)
 }
 
 /* Gathers the steps of a state. What leads to one place by one column mostly lies side by side. */
-static uint32_t gather(const tn_count_sweep *sweep, uint32_t state)
+static uint32_t gather(const tn_agreement *of, uint32_t state, tn_count_step *steps)
 {
-    const tn_agreement *of = sweep->of;
     const tn_sparse *a = of->a;
     uint32_t count = 0;
     for (size_t e = a->first[state]; e < a->first[state + 1]; e++)
@@ -48,12 +53,12 @@ static uint32_t gather(const tn_count_sweep *sweep, uint32_t state)
             tn_count_step next = {a->target[e], of->splits.splits[i].other, of->weights[of->splits.splits[i].label]};
             uint32_t same = count;
             for (uint32_t k = count; k > 0 && count - k < TN_BOTH_NEAR && same == count; k--)
-                if (sweep->steps[k - 1].target == next.target && sweep->steps[k - 1].column == next.column)
+                if (steps[k - 1].target == next.target && steps[k - 1].column == next.column)
                     same = k - 1;
             if (same < count)
-                sweep->steps[same].weight += next.weight;
+                steps[same].weight += next.weight;
             else if (next.weight > 0)
-                sweep->steps[count++] = next;
+                steps[count++] = next;
         }
     return count;
 }
@@ -87,7 +92,7 @@ static uint64_t take_state(const tn_count_sweep *sweep, uint32_t p, mpz_t count)
         if (!sweep->reached[pair])
             continue;
         if (work == 0)
-            steps = gather(sweep, p);
+            steps = gather(sweep->of, p, sweep->steps);
         move_on(sweep, p, q, steps);
         work += steps + 1;
         if (!of->a->accept[p] || sweep->away[q] != 0)
@@ -134,5 +139,145 @@ tn_status tn_sweep_count(const tn_agreement *of, const uint32_t *longest, const 
     free(sweep.value);
     free(sweep.reached);
     free(sweep.steps);
+    return status;
+}
+
+/* ---- by length */
+
+typedef struct tn_sweep_row {
+    uint32_t begin, end; /* the states of b that have numbers, from the first to the last */
+    mp_limb_t numbers[]; /* [states of b][limbs] */
+} tn_sweep_row;
+
+typedef struct tn_row_count {
+    const tn_agreement *of;
+    uint32_t *away;
+    size_t row; /* bytes */
+    tn_count_step *steps;
+    mpz_t *counts; /* by length */
+    const char *what;
+    tn_bounds *bounds;
+} tn_row_count;
+
+static void row_zero(const void *context, void *row)
+{
+    const tn_row_count *r = context;
+    memset(row, 0, r->row);
+    ((tn_sweep_row *)row)->begin = r->of->b->states;
+}
+
+static void widen(tn_sweep_row *row, uint32_t state)
+{
+    row->begin = state < row->begin ? state : row->begin;
+    row->end = state >= row->end ? state + 1 : row->end;
+}
+
+static tn_status row_one(void *context, uint32_t layer, uint32_t state, void *element, tn_error *error)
+{
+    const tn_row_count *r = context;
+    tn_sweep_row *row = element;
+    (void)layer, (void)state, (void)error;
+    if (r->away[0] <= r->of->max) {
+        widen(row, 0);
+        row->numbers[0] = 1;
+    }
+    return TN_OK;
+}
+
+static tn_status row_add(void *context, void *sum, const void *element, const tn_walk_edge *edge, tn_error *error)
+{
+    const tn_row_count *r = context;
+    const tn_count_step *step = edge->label;
+    const tn_dfa *b = r->of->b;
+    const tn_sweep_row *row = element;
+    tn_sweep_row *next = sum;
+    size_t limbs = r->of->limbs;
+    uint32_t left = r->of->max - edge->layer - 1;
+    (void)error;
+    for (uint32_t q = row->begin; q < row->end; q++) {
+        const mp_limb_t *number = row->numbers + q * limbs;
+        uint32_t to = b->delta[(size_t)q * b->columns + step->column];
+        if (r->away[to] > left || mpn_zero_p(number, (mp_size_t)limbs))
+            continue;
+        widen(next, to);
+        tn_limbs_add(next->numbers + to * limbs, number, limbs, step->weight);
+    }
+    return TN_OK;
+}
+
+/* Counts the words that end here. */
+static tn_status row_settle(void *context, uint32_t layer, uint32_t state, void *element, tn_error *error)
+{
+    const tn_row_count *r = context;
+    const tn_sweep_row *row = element;
+    size_t limbs = r->of->limbs;
+    (void)error;
+    for (uint32_t q = row->begin; r->of->a->accept[state] && q < row->end; q++) {
+        mpz_t value;
+        if (r->away[q] != 0)
+            continue;
+        mpz_roinit_n(value, row->numbers + q * limbs, (mp_size_t)limbs);
+        mpz_add(r->counts[layer], r->counts[layer], value);
+    }
+    return TN_OK;
+}
+
+static tn_status row_edges(void *context, uint32_t layer, uint32_t state, tn_walk_seen *seen, void *walk,
+                           tn_error *error)
+{
+    tn_row_count *r = context;
+    uint32_t count = gather(r->of, state, r->steps);
+    tn_status status = tn_bounds_check(r->bounds, r->what, 1, 1, count + UINT64_C(1), error);
+    (void)layer;
+    for (uint32_t i = 0; status == TN_OK && i < count; i++)
+        status = seen(walk, r->steps[i].target, &r->steps[i], error);
+    return status;
+}
+
+static const tn_walk_graph row_graph = {tn_walk_starts_first, row_edges};
+TN_WALK_ALGEBRA(row_algebra, row_zero, NULL, row_one, row_add, row_settle);
+
+static tn_status fail_rows(const char *what, tn_error *error)
+{
+    tn_fail(error, TN_LIMIT, E_TOO_MANY_STATES, "counting the plans of this %s takes more than %llu MB", what,
+            (unsigned long long)(ROWS_MAX >> 20));
+    tn_error_help(error, "give fewer trays with --trays");
+    return TN_LIMIT;
+}
+
+static tn_status count_rows(tn_row_count *r, tn_error *error)
+{
+    const tn_agreement *of = r->of;
+    tn_layers walk = {0};
+    r->row = sizeof(tn_sweep_row) + tn_size_of(tn_size_of(of->b->states, of->limbs), sizeof(mp_limb_t));
+    if (r->row > ROWS_MAX / (of->a->states + UINT64_C(1)))
+        return fail_rows(r->what, error);
+    r->steps = malloc(((size_t)of->splits.columns + 1) * sizeof *r->steps);
+    if (!r->steps)
+        return tn_fail_memory(error);
+    tn_status status = tn_agreement_away(of, &r->away, error);
+    if (status == TN_OK)
+        status = tn_walk_begin(&walk, of->max, false, error);
+    if (status == TN_OK && of->a->states > 0)
+        status = tn_walk_forward(&walk, &row_graph, r, &row_algebra, r, r->row, error);
+    tn_walk_clear(&walk, &row_algebra, NULL);
+    return status;
+}
+
+tn_status tn_count_both_lengths(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation operation, const uint32_t *sizes,
+                                uint32_t max, const char *what, tn_bounds *bounds, mpz_t *counts, tn_error *error)
+{
+    tn_agreement of = {.a = a, .b = b, .agree = operation == TN_DFA_AND, .max = max};
+    tn_row_count r = {.of = &of, .counts = counts, .what = what, .bounds = bounds};
+    for (uint32_t length = 0; length <= max; length++)
+        mpz_set_ui(counts[length], 0);
+    tn_status status = tn_agreement_make(&of, sizes, error);
+    uint64_t limbs = status == TN_OK ? tn_count_limbs(of.weights, of.splits.columns, max) : 0;
+    of.limbs = tn_as_size(limbs);
+    if (status == TN_OK)
+        status = count_rows(&r, error);
+    tn_agreement_clear(&of);
+    free(r.steps);
+    free(r.away);
     return status;
 }

@@ -17,6 +17,14 @@ done
 golden report_limits "sed -n '/id=.limits/,/<.ul>/p' $scratch/report/index.html"
 golden count_demanding 'tartan count blow-up.plan --library demanding --max-states 30'
 golden count_demanding_json 'tartan count blow-up.plan --library demanding --max-states 30 --json 2>/dev/null | sed -n "/requirements/,\$p"'
+# Plans are counted although their automaton passes a limit; nothing else is asked of them.
+golden count_apart 'tartan count apart.plan --max-states 5000'
+golden count_apart_json 'tartan count apart.plan --max-states 5000 --json --no-effects'
+golden sample_apart 'tartan sample apart.plan 2 --max-states 5000'
+for states in 20000 8000 5000; do
+    "$TARTAN" count "$files/apart.plan" --no-effects --max-states $states | sed '/^states\|^counted apart/d' >"$scratch/apart-$states" || fail "$states states: exit $?"
+    cmp "$scratch/apart-20000" "$scratch/apart-$states" || fail "$states states count other plans"
+done
 golden check 'tartan check blow-up.plan'
 golden check_small 'tartan check blow-up.plan --max-states 3'
 golden relations 'tartan check blow-up.plan --relations --max-states 3'

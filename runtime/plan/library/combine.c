@@ -74,8 +74,8 @@ static tn_status apply_clause(tn_library *library, size_t i, tn_sparse **sparse,
     uint64_t before = (*sparse)->states;
     tn_status status =
         tn_library_apply(library, library->clauses[i], tn_library_keeping(library, i), &library->bounds, sparse, error);
-    if (status == TN_OK)
-        library->growth[i] = (*sparse)->states * UINT64_C(1000) / (before + 1);
+    uint64_t after = status == TN_OK ? (*sparse)->states : library->bounds.max_states; /* or more */
+    library->growth[i] = after * UINT64_C(1000) / (before + 1);
     if (status != TN_LIMIT)
         return status;
     if (error)
@@ -219,6 +219,45 @@ static tn_status apply_each(tn_library *library, size_t from, size_t to, tn_spar
 
 typedef tn_status apply_clauses(tn_library *library, size_t from, size_t to, tn_sparse **plans, tn_error *error);
 
+/* Puts the clause last of those from..to, if it is one of them: where these end without it. */
+static size_t put_last(tn_library *library, size_t from, size_t to, size_t clause)
+{
+    size_t at = from;
+    while (at < to && library->applied[at] != clause)
+        at++;
+    if (at == to)
+        return to;
+    memmove(library->applied + at, library->applied + at + 1, (to - at - 1) * sizeof *library->applied);
+    library->applied[to - 1] = clause;
+    return to - 1;
+}
+
+/* Makes the generator of the requirements. If one of them is left out, `live` begins with what the others leave. */
+static tn_status combine_requirements(tn_library *library, apply_clauses *apply, tn_error *error)
+{
+    size_t required = library->required_count;
+    list_clauses(library, false);
+    tn_status status = tn_library_order(library, NULL, library->applied, required, error);
+    size_t others = put_last(library, 0, required, library->apart);
+    if (status == TN_OK)
+        status = apply(library, 0, others, &library->generator, error);
+    if (status == TN_OK && others < required)
+        status = tn_sparse_copy(library->generator, &library->live, error);
+    return status == TN_OK ? apply(library, others, required, &library->generator, error) : status;
+}
+
+static tn_status combine_prunes(tn_library *library, apply_clauses *apply, tn_error *error)
+{
+    size_t required = library->required_count, count = library->applied_count;
+    list_clauses(library, true);
+    tn_status status =
+        tn_library_order(library, library->generator, library->applied + required, count - required, error);
+    size_t others = put_last(library, required, count, library->apart);
+    if (status == TN_OK && !library->live)
+        status = tn_sparse_copy(library->generator, &library->live, error);
+    return status == TN_OK ? apply(library, required, others, &library->live, error) : status;
+}
+
 /* Combines the clauses, within the library's lengths or not, in at most `work` steps. */
 static tn_status combine_by(tn_library *library, apply_clauses *apply, bool within, uint64_t work, tn_error *error)
 {
@@ -228,19 +267,10 @@ static tn_status combine_by(tn_library *library, apply_clauses *apply, bool with
     if (work < library->bounds.max_work)
         library->bounds.max_work = work;
     memset(library->growth, 0, library->record->clause_count * sizeof *library->growth);
-    size_t required = library->required_count, count = library->applied_count;
-    list_clauses(library, false);
-    list_clauses(library, true);
     tn_status status = tn_library_everything(library, within, &library->generator, error);
     if (status == TN_OK)
-        status = tn_library_order(library, NULL, library->applied, required, error);
-    if (status == TN_OK)
-        status = apply(library, 0, required, &library->generator, error);
-    if (status == TN_OK)
-        status = tn_library_order(library, library->generator, library->applied + required, count - required, error);
-    if (status == TN_OK)
-        status = tn_sparse_copy(library->generator, &library->live, error);
-    return status == TN_OK ? apply(library, required, count, &library->live, error) : status;
+        status = combine_requirements(library, apply, error);
+    return status == TN_OK ? combine_prunes(library, apply, error) : status;
 }
 
 /* In runs, and where these pass a limit clause by clause: that can need less, and tells which clause it is. */
@@ -255,9 +285,48 @@ static tn_status try_combine(tn_library *library, bool within, uint64_t work, tn
     return status;
 }
 
+/* ---- leaving a clause out
+ *
+ * A clause that counts, or compares sums, can multiply the states of all others together. The plans that all clauses
+ * keep are then still counted, from the automaton of the others and that of the clause side by side. */
+
+#define APART_STATES 512u /* of the clause: so many numbers go with each state of the others */
+#define APART_TRIALS 4u
+
+/* Of the clauses after which `before` (SIZE_MAX: none) was the one that multiplied the states most, that which did so
+ * most; SIZE_MAX: there is none that counts side by side with the others. */
+static size_t next_apart(const tn_library *library, size_t before)
+{
+    size_t most = SIZE_MAX;
+    for (size_t k = 0; k < library->applied_count; k++) {
+        size_t i = library->applied[k];
+        bool later = before == SIZE_MAX || library->growth[i] < library->growth[before] ||
+                     (library->growth[i] == library->growth[before] && i > before);
+        bool more = most == SIZE_MAX || library->growth[i] > library->growth[most] ||
+                    (library->growth[i] == library->growth[most] && i < most);
+        if (later && more && library->growth[i] > 1000 && library->clauses[i]->states <= APART_STATES)
+            most = i;
+    }
+    return most;
+}
+
+/* After the clauses one by one have passed a limit. */
+static tn_status combine_apart(tn_library *library, tn_error *error)
+{
+    size_t tried[APART_TRIALS], count = 0;
+    for (size_t i = next_apart(library, SIZE_MAX); i != SIZE_MAX && count < APART_TRIALS; i = next_apart(library, i))
+        tried[count++] = i;
+    tn_status status = TN_LIMIT;
+    for (size_t k = 0; status == TN_LIMIT && k < count; k++) {
+        library->apart = tried[k];
+        status = combine_by(library, apply_runs, true, UINT64_MAX, error);
+    }
+    return status;
+}
+
 /* Plans of any length make the smallest automaton where rules remember little, and the largest where they remember
  * much. Which way is taken depends on counted work, so it is the same everywhere. */
-tn_status tn_library_combine(tn_library *library, tn_error *error)
+tn_status tn_library_combine(tn_library *library, bool only_counted, tn_error *error)
 {
     tn_error ignored;
     library->growth = calloc((size_t)library->record->clause_count + 1, sizeof *library->growth);
@@ -268,7 +337,12 @@ tn_status tn_library_combine(tn_library *library, tn_error *error)
         status = try_combine(library, true, UINT64_MAX, error);
     if (status == TN_LIMIT && library->max > FEW_TRAYS && try_combine(library, false, UINT64_MAX, &ignored) == TN_OK)
         status = TN_OK;
-    if (status != TN_OK)
+    if (status == TN_LIMIT && only_counted) {
+        status = combine_apart(library, &ignored);
+        if (status != TN_OK && status != TN_LIMIT && error)
+            *error = ignored;
+    }
+    if (status != TN_OK || library->apart != SIZE_MAX)
         return status;
     return tn_sparse_fill(library->live, &library->kept, error);
 }

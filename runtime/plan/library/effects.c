@@ -135,6 +135,23 @@ static tn_status count_out(const tn_library *library, const tn_sparse *everythin
     return status;
 }
 
+/* What the other clauses leave is one automaton only for the clause that it leaves out. */
+static tn_status count_apart(const tn_library *library, tn_effect *effects, tn_error *error)
+{
+    tn_effect *apart = &effects[library->apart];
+    for (size_t i = 0; i < library->applied_count; i++) {
+        tn_effect *effect = &effects[library->applied[i]];
+        tn_fail(&effect->error, TN_LIMIT, E_TOO_MANY_STATES,
+                "the automaton of this library, of its lengths alone, passes the limit of %u states",
+                library->max_joint);
+        show_limit(library, library->applied[i], &effect->error);
+    }
+    apart->status = tn_count_range(library->live, library->classes->size, library->min, library->max, apart->only,
+                                   library->schema->module->watch, error);
+    mpz_sub(apart->only, apart->only, library->before[library->max + 1]);
+    return apart->status;
+}
+
 static tn_status find_effects(const tn_library *library, bool keeping, tn_effect *effects, tn_error *error)
 {
     tn_sparse *everything = NULL;
@@ -142,6 +159,8 @@ static tn_status find_effects(const tn_library *library, bool keeping, tn_effect
     for (size_t i = 0; status == TN_OK && i < library->applied_count; i++)
         status = count_out(library, everything, library->applied[i], &effects[library->applied[i]], error);
     tn_sparse_free(everything);
+    if (status == TN_OK && library->apart != SIZE_MAX)
+        return count_apart(library, effects, error);
     if (status == TN_OK && !tn_others_bounded(library))
         status = try_only(library, false, keeping, effects, error);
     return status == TN_OK ? try_only(library, true, keeping, effects, error) : status;

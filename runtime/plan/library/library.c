@@ -90,13 +90,14 @@ tn_status tn_library_new(const tn_schema *schema, uint32_t index, const tn_libra
     library->threads = options->threads;
     library->max_eager = options->max_eager ? options->max_eager : TN_LIBRARY_EAGER_DEFAULT;
     library->memory = options->memory;
+    library->apart = SIZE_MAX;
     tn_status status = set_lengths(library, options, error);
     if (status == TN_OK)
         status = add_late(library, error);
     if (status == TN_OK)
         status = lower_clauses(library, options, error);
     if (status == TN_OK)
-        status = tn_library_combine(library, error);
+        status = tn_library_combine(library, options->only_counted, error);
     if (status == TN_OK)
         status = tn_library_tables(library, error);
     if (status == TN_OK)
@@ -120,6 +121,7 @@ tn_status tn_library_of(tn_classes *classes, const tn_sparse *sparse, uint32_t m
     library->schema = classes->schema;
     library->classes = classes;
     library->max_table = max_table;
+    library->apart = SIZE_MAX;
     library->min = min;
     library->max = max;
     tn_status status = add_late(library, error);
@@ -202,6 +204,11 @@ const tn_library_record *tn_library_record_of(const tn_library *library)
 bool tn_library_within(const tn_library *library)
 {
     return library->within;
+}
+
+size_t tn_library_apart(const tn_library *library)
+{
+    return library->apart;
 }
 
 uint32_t tn_library_min(const tn_library *library)

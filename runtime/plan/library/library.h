@@ -24,6 +24,8 @@ typedef struct tn_library_options {
     uint32_t max_states; /* of any intermediate automaton; 0: TN_STATES_DEFAULT for
                                  each clause, 1,000,000 for the clauses together */
     bool all_generated;  /* leave pruning out: the plans are all that are generated */
+    bool only_counted;   /* plans are only counted: a library whose clauses together pass a limit may then leave one
+                                 of them out of its automaton (tn_library_apart) */
     bool override_trays; /* take the lengths below instead of the library's own */
     uint32_t trays_min, trays_max;
     uint32_t max_length;       /* the largest trays_max that is accepted; 0: 4,096 (E0805 past it) */
@@ -50,6 +52,11 @@ void tn_library_free(tn_library *library);
  * them. */
 uint32_t tn_library_states(const tn_library *library);
 bool tn_library_within(const tn_library *library);
+
+/* The clause that its automaton leaves out, since with it that passes a limit; SIZE_MAX: none. If there is one, the
+ * library has its lengths, and the counts of tn_library_kept, tn_library_generated and tn_library_effect. Nothing else
+ * may be asked. Only if the options said that this is enough. */
+size_t tn_library_apart(const tn_library *library);
 uint32_t tn_library_min(const tn_library *library);
 uint32_t tn_library_max(const tn_library *library);
 const tn_schema *tn_library_schema(const tn_library *library);

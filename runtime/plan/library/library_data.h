@@ -66,7 +66,8 @@ struct tn_library {
     size_t applied_count, required_count;
     tn_sparse *generator; /* of what the requirements and totals leave */
     tn_sparse *live;      /* of the kept plans, without a dead state */
-    tn_dfa *kept;         /* the same, complete: its last state is the dead one */
+    tn_dfa *kept;         /* the same, complete: its last state is the dead one; NULL: a clause is left out */
+    size_t apart;         /* the clause that `live` leaves out, or SIZE_MAX */
     bool within;          /* generator and live hold only plans of min..max trays */
     tn_bounds bounds;     /* of combining the clauses */
     uint64_t *growth;     /* [record->clause_count]: by what, in thousandths, each has multiplied the states */
@@ -130,8 +131,8 @@ tn_status tn_library_hash_leanings(tn_library *library, tn_error *error);
 tn_status tn_library_name_clause(const tn_library *library, size_t i, tn_error *error);
 
 /* Makes `generator`, `live` and `kept` of the clauses' automata (combine.c), the same for any number of threads.
- * TN_LIMIT (E0802) names a clause. */
-tn_status tn_library_combine(tn_library *library, tn_error *error);
+ * TN_LIMIT (E0802) names a clause. only_counted: then one may be left out. */
+tn_status tn_library_combine(tn_library *library, bool only_counted, tn_error *error);
 
 /* What combining automata may cost: in proportion to the states that they may have. */
 tn_bounds tn_library_bounds(const tn_library *library);
@@ -160,7 +161,7 @@ bool tn_library_keep_alone(const tn_library *library, size_t i, tn_sparse *plans
 /* Free `effects` of so many clauses; NULL is fine (effects.c). */
 void tn_effects_free(tn_effect *effects, size_t count);
 
-/* Fills rows, nearly, alive, before, generated and passed (tables.c). */
+/* Fills rows, nearly, alive, before, generated and passed (tables.c); if a clause is left out, before and generated. */
 tn_status tn_library_tables(tn_library *library, tn_error *error);
 
 /* sum := plans that start in `state` with a tray before `tray`, `left` trays to come after it. */

@@ -109,18 +109,45 @@ static tn_status make_rows(tn_library *library, tn_error *error)
     return status;
 }
 
+/* How many plans of so many trays there are, from the rows. */
+static void add_totals(tn_library *library)
+{
+    for (uint32_t length = library->min; length <= library->max; length++)
+        tn_count_row_add(&library->rows[length], 0, 1, library->before[length + 1]);
+}
+
+/* The same of what the automaton and the clause that it leaves out keep. */
+static tn_status count_apart(tn_library *library, tn_error *error)
+{
+    tn_bounds bounds = tn_library_bounds(library);
+    mpz_t *kept = tn_integers_new((size_t)library->max + 1);
+    if (!kept)
+        return tn_fail_memory(error);
+    tn_status status = tn_count_both_lengths(library->live, library->clauses[library->apart],
+                                             tn_library_keeping(library, library->apart), library->classes->size,
+                                             library->max, "library", &bounds, kept, error);
+    for (uint32_t length = library->min; status == TN_OK && length <= library->max; length++)
+        mpz_set(library->before[length + 1], kept[length]);
+    tn_integers_free(kept, (size_t)library->max + 1);
+    return status;
+}
+
 static tn_status make_totals(tn_library *library, tn_error *error)
 {
     size_t lengths = (size_t)library->max + 1;
+    tn_status status = TN_OK;
     library->generated = tn_integers_new(lengths);
     library->before = tn_integers_new(lengths + 1);
     if (!library->generated || !library->before)
         return tn_fail_memory(error);
-    for (uint32_t length = 0; length < lengths; length++) {
-        mpz_set(library->before[length + 1], library->before[length]);
-        if (length >= library->min)
-            tn_count_row_add(&library->rows[length], 0, 1, library->before[length + 1]);
-    }
+    if (library->apart == SIZE_MAX)
+        add_totals(library);
+    else
+        status = count_apart(library, error);
+    if (status != TN_OK)
+        return status;
+    for (uint32_t length = 0; length < lengths; length++)
+        mpz_add(library->before[length + 1], library->before[length + 1], library->before[length]);
     return tn_count_lengths(library->generator, library->classes->size, library->max, library->generated,
                             library->schema->module->watch, error);
 }
@@ -164,6 +191,8 @@ static tn_status make_runs(tn_library *library, tn_error *error)
 
 tn_status tn_library_tables(tn_library *library, tn_error *error)
 {
+    if (library->apart != SIZE_MAX)
+        return make_totals(library, error);
     tn_status status = make_rows(library, error);
     if (status == TN_OK)
         status = make_totals(library, error);

@@ -116,8 +116,8 @@ static tn_status analyse(void *context, uint64_t *result, tn_error *error)
     const test_library *made = context;
     tn_plan_analysis *analysis = NULL;
     tn_shown_plan examples[3] = {{0}};
-    tn_status status =
-        tn_plan_analysis_new(made->schema, &(tn_plan_analysis_options){.max_states = 2000, .threads = 1}, &analysis, error);
+    tn_status status = tn_plan_analysis_new(made->schema, &(tn_plan_analysis_options){.max_states = 2000, .threads = 1},
+                                            &analysis, error);
     if (status == TN_OK && tn_plan_analysis_rule_count(analysis) > 1)
         status = tn_plan_analysis_examples(analysis, 0, 1, examples, error);
     for (size_t i = 0; status == TN_OK && i < tn_plan_analysis_rule_count(analysis); i++)
@@ -168,6 +168,53 @@ static tn_status open_library_within(void *context, uint64_t *result, tn_error *
     return open_and_use(context, 1, result, error);
 }
 
+/* A library that may have few states, for counting its plans. */
+typedef struct few_states {
+    const test_library *made;
+    uint32_t states;
+} few_states;
+
+static tn_status count_few(void *context, uint64_t *result, tn_error *error)
+{
+    const few_states *few = context;
+    tn_library_options options = {.max_states = few->states, .max_eager = 1, .only_counted = true, .threads = 1};
+    tn_library *library = NULL;
+    tn_status status = tn_library_new(few->made->schema, 0, &options, &library, error);
+    mpz_t out, only;
+    mpz_inits(out, only, NULL);
+    if (status == TN_OK && tn_library_apart(library) != SIZE_MAX) {
+        uint32_t states;
+        tn_library_kept(library, TN_ALL_LENGTHS, only);
+        add(result, only);
+        status = tn_library_effect(library, (uint32_t)tn_library_apart(library), out, only, &states, error);
+        add(result, only);
+        *result |= 1;
+    }
+    mpz_clears(out, only, NULL);
+    tn_library_free(library);
+    return status;
+}
+
+static void counting_apart_runs_out_of_memory(void **state)
+{
+    (void)state;
+    uint32_t apart = 0;
+    for (uint64_t seed = 200; apart < 2 && seed < 300; seed++) {
+        test_library made;
+        bool ok = test_library_make(&made, seed, &test_schema_house, 0, 4);
+        for (uint32_t states = 8; ok && apart < 2 && states < 64; states += 8) {
+            few_states few = {&made, states};
+            uint64_t result = 0;
+            if (count_few(&few, &result, NULL) != TN_OK || !(result & 1))
+                continue;
+            expect_robust(count_few, &few);
+            apart++;
+        }
+        test_library_clear(&made);
+    }
+    assert_int_equal(apart, 2);
+}
+
 static void memory_runs_out(void **state)
 {
     (void)state;
@@ -188,6 +235,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(memory_runs_out),
+        cmocka_unit_test(counting_apart_runs_out_of_memory),
         cmocka_unit_test(comparing_runs_out_of_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -284,6 +284,59 @@ static void both_ways_of_building_agree(void **state)
     assert_true(within > 10);
 }
 
+/* A library that leaves a clause out of its automaton has the same counts as the whole one. */
+static void check_apart(const test_library *whole, const tn_library *apart)
+{
+    mpz_t x, y, only_x, only_y;
+    mpz_inits(x, y, only_x, only_y, NULL);
+    tn_error error;
+    for (uint32_t length = tn_library_min(apart); length <= tn_library_max(apart) + 1; length++) {
+        uint32_t asked = length <= tn_library_max(apart) ? length : TN_ALL_LENGTHS;
+        tn_library_kept(whole->library, asked, x);
+        tn_library_kept(apart, asked, y);
+        assert_int_equal(mpz_cmp(x, y), 0);
+        test_ok(tn_library_generated(whole->library, asked, x, &error), &error);
+        test_ok(tn_library_generated(apart, asked, y, &error), &error);
+        assert_int_equal(mpz_cmp(x, y), 0);
+    }
+    for (uint32_t i = 0; i < whole->module->CLAUSE_count; i++) {
+        uint32_t states;
+        test_ok(tn_library_effect(whole->library, i, x, only_x, &states, &error), &error);
+        tn_status status = tn_library_effect(apart, i, y, only_y, &states, &error);
+        assert_int_equal(status, i == tn_library_apart(apart) ? TN_OK : TN_LIMIT);
+        assert_int_equal(mpz_cmp(x, y), 0);
+        assert_true(status == TN_OK ? mpz_cmp(only_x, only_y) == 0 : mpz_sgn(only_y) < 0);
+    }
+    mpz_clears(x, y, only_x, only_y, NULL);
+}
+
+static void a_clause_is_counted_apart(void **state)
+{
+    (void)state;
+    uint32_t required = 0, pruned = 0;
+    for (uint64_t seed = 200; seed < 300; seed++) {
+        test_library made;
+        bool ok = test_library_make(&made, seed, &test_schema_house, seed % 3, 6);
+        for (uint32_t states = 8; ok && states < 128; states += 1 + states / 8) {
+            tn_library *library = NULL;
+            tn_library_options options = {.max_states = states, .max_eager = 1, .only_counted = true, .threads = 1};
+            tn_error error;
+            if (tn_library_new(made.schema, 0, &options, &library, &error) == TN_OK &&
+                tn_library_apart(library) != SIZE_MAX) {
+                bool prunes = test_library_prunes(&made, (uint32_t)tn_library_apart(library));
+                assert_true(tn_library_states(library) <= states + 1);
+                check_apart(&made, library);
+                pruned += prunes;
+                required += !prunes;
+            }
+            tn_library_free(library);
+        }
+        test_library_clear(&made);
+    }
+    assert_true(required > 10);
+    assert_true(pruned > 10);
+}
+
 static void a_hash_tells_libraries_apart(void **state)
 {
     (void)state;
@@ -317,6 +370,7 @@ int main(void)
         cmocka_unit_test(everything_agrees_with_trying_every_plan),
         cmocka_unit_test(within_the_lengths_too),
         cmocka_unit_test(both_ways_of_building_agree),
+        cmocka_unit_test(a_clause_is_counted_apart),
         cmocka_unit_test(a_hash_tells_libraries_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
