@@ -27,7 +27,7 @@ TYPES = {
     "IFCBUILDINGSTOREY": SPATIAL + "r", "IFCCARTESIANPOINT": "V", "IFCCOLUMN": ELEMENT + "e", "IFCDIRECTION": "V", "IFCDOOR": ELEMENT + "rrees",
     "IFCELEMENTQUANTITY": ROOT + "sA", "IFCEXTRUDEDAREASOLID": "NnNR", "IFCFURNITURE": ELEMENT + "e",
     "IFCGEOMETRICREPRESENTATIONCONTEXT": "ssIrNn", "IFCGEOMETRICREPRESENTATIONSUBCONTEXT": "ssDDDDNrEs", "IFCLOCALPLACEMENT": "nN",
-    "IFCMATERIAL": "Sss", "IFCOPENINGELEMENT": ELEMENT + "e", "IFCPOLYLINE": "A", "IFCPRODUCTDEFINITIONSHAPE": "ssA", "IFCPROJECT": ROOT + "sssan",
+    "IFCMATERIAL": "Sss", "IFCMATERIALLAYER": "nResssi", "IFCMATERIALLAYERSET": "Ass", "IFCMATERIALLAYERSETUSAGE": "NEERr", "IFCOPENINGELEMENT": ELEMENT + "e", "IFCPOLYLINE": "A", "IFCPRODUCTDEFINITIONSHAPE": "ssA", "IFCPROJECT": ROOT + "sssan",
     "IFCQUANTITYAREA": "SsnRs", "IFCQUANTITYVOLUME": "SsnRs", "IFCRECTANGLEPROFILEDEF": "EsnRR", "IFCRELAGGREGATES": ROOT + "NA",
     "IFCRELASSOCIATESMATERIAL": ROOT + "AN", "IFCRELCONTAINEDINSPATIALSTRUCTURE": ROOT + "AN", "IFCRELDEFINESBYPROPERTIES": ROOT + "AN",
     "IFCRELFILLSELEMENT": ROOT + "NN", "IFCRELSPACEBOUNDARY": ROOT + "NNnEE", "IFCRELVOIDSELEMENT": ROOT + "NN", "IFCROOF": ELEMENT + "e",
@@ -43,7 +43,7 @@ WRITTEN = {
 # (entity, attribute) -> the values of its enumeration that houses have
 VALUES = {
     ("IFCWALL", 8): "SOLIDWALL PARTITIONING", ("IFCSLAB", 8): "FLOOR BASESLAB ROOF", ("IFCDOOR", 10): "DOOR", ("IFCWINDOW", 10): "WINDOW",
-    ("IFCRELSPACEBOUNDARY", 7): "PHYSICAL", ("IFCRELSPACEBOUNDARY", 8): "INTERNAL EXTERNAL", ("IFCSPACE", 8): "ELEMENT",
+    ("IFCMATERIALLAYERSETUSAGE", 1): "AXIS2 AXIS3", ("IFCMATERIALLAYERSETUSAGE", 2): "POSITIVE NEGATIVE", ("IFCRELSPACEBOUNDARY", 7): "PHYSICAL", ("IFCRELSPACEBOUNDARY", 8): "INTERNAL EXTERNAL", ("IFCSPACE", 8): "ELEMENT",
 }
 ELEMENTS = "IFCWALL IFCCOLUMN IFCSLAB IFCROOF IFCSTAIR IFCFURNITURE IFCDOOR IFCWINDOW".split()
 PRODUCTS = ELEMENTS + ["IFCOPENINGELEMENT", "IFCSPACE", "IFCSITE", "IFCBUILDING", "IFCBUILDINGSTOREY"]
@@ -57,10 +57,11 @@ REFERENCES = {
     ("IFCRELVOIDSELEMENT", 4): ["IFCWALL"], ("IFCRELVOIDSELEMENT", 5): ["IFCOPENINGELEMENT"],
     ("IFCRELFILLSELEMENT", 4): ["IFCOPENINGELEMENT"], ("IFCRELFILLSELEMENT", 5): ["IFCDOOR", "IFCWINDOW"],
     ("IFCRELCONTAINEDINSPATIALSTRUCTURE", 4): ELEMENTS, ("IFCRELCONTAINEDINSPATIALSTRUCTURE", 5): ["IFCBUILDINGSTOREY"],
+    ("IFCMATERIALLAYER", 0): ["IFCMATERIAL"], ("IFCMATERIALLAYERSET", 0): ["IFCMATERIALLAYER"], ("IFCMATERIALLAYERSETUSAGE", 0): ["IFCMATERIALLAYERSET"],
     ("IFCRELAGGREGATES", 4): ["IFCPROJECT", "IFCSITE", "IFCBUILDING", "IFCBUILDINGSTOREY"],
     ("IFCRELAGGREGATES", 5): ["IFCSITE", "IFCBUILDING", "IFCBUILDINGSTOREY", "IFCSPACE"],
     ("IFCRELSPACEBOUNDARY", 4): ["IFCSPACE"], ("IFCRELSPACEBOUNDARY", 5): ["IFCWALL"],
-    ("IFCRELDEFINESBYPROPERTIES", 5): ["IFCELEMENTQUANTITY"], ("IFCRELASSOCIATESMATERIAL", 5): ["IFCMATERIAL"],
+    ("IFCRELDEFINESBYPROPERTIES", 5): ["IFCELEMENTQUANTITY"], ("IFCRELASSOCIATESMATERIAL", 5): ["IFCMATERIAL", "IFCMATERIALLAYERSET", "IFCMATERIALLAYERSETUSAGE"],
     ("IFCPROJECT", 8): ["IFCUNITASSIGNMENT"],
     **{(p, 5): ["IFCLOCALPLACEMENT"] for p in PRODUCTS}, **{(p, 6): ["IFCPRODUCTDEFINITIONSHAPE"] for p in PRODUCTS},
 }
@@ -226,6 +227,56 @@ def read_again(reader, path, made):
         check(f"{reader}: {number} {name}, not {len(own)}", number == len(own))
         wanted = F(0) if name in ("IFCSITE", "IFCBUILDING", "IFCBUILDINGSTOREY") else sum(volume_of(made, n) for n in own)
         check(f"{reader}: {name} hold {float(volume)}, not {float(wanted)}", abs(volume - wanted) <= wanted / 10**6 + F(1, 10**3))
+
+
+# ---- layers
+
+
+def layers_of(made, part, usage):
+    """Where each layer of a wall or slab lies in the house: its name, the axis across it, and its two sides, in millimetres. IFC has them along the
+    y axis of a wall's placement, or upwards in a slab, from an offset on, in the direction that is said."""
+    layer_set, along, sense, offset, _ = made[usage][1]
+    low, high, x, y, at = box_of(made, part)
+    sign, place = (1 if sense == ".POSITIVE." else -1), F(offset)
+    axis, step = (2, 1) if along == ".AXIS3." else (0, y[0]) if y[0] else (1, y[1])
+    for layer in references(made[references(layer_set)[0]][1][0]):
+        end = place + sign * F(made[layer][1][1])
+        sides = sorted(at[axis] + step * p if axis < 2 else low[2] + p for p in (place, end))
+        check("a layer is in its part", low[axis] <= sides[0] < sides[1] <= high[axis])
+        yield spelt(made[layer][1][3]), axis, tuple(sides)
+        place = end
+
+
+def axis_of(solid):
+    """Across which axis a solid is cut into layers: of these there are two or more in the forms of these tests."""
+    first, second = (layer["box"] for layer in solid["layers"][:2])
+    return next(k for k in range(3) if first[2 * k] != second[2 * k])
+
+
+def check_layers(made, house):
+    """Those of each wall and slab are those of the solids in the JSON; posts have theirs as a set alone."""
+    wanted, posts, walls = Counter(), Counter(), set()
+    for solid in (s for s in house["solids"] if "layers" in s):
+        names, axis = tuple(layer["name"] for layer in solid["layers"]), axis_of(solid)
+        wall = solid["kind"] in ("outside", "party", "partition")
+        if solid["kind"] == "post":
+            posts[names] += 1
+        elif not wall or solid["of"] not in walls:
+            sides = (tuple(F(n, 10**6) for n in layer["box"][2 * axis:2 * axis + 2]) for layer in solid["layers"])
+            wanted[tuple((name, axis, side) for name, side in zip(names, sides))] += 1
+        walls |= {solid["of"]} if wall else set()
+    found, columns = Counter(), Counter()
+    for name, args in made.values():
+        usage = references(args[5])[0] if name == "IFCRELASSOCIATESMATERIAL" else None
+        of = made[usage][0] if usage else None
+        for part in references(args[4]) if of in ("IFCMATERIALLAYERSET", "IFCMATERIALLAYERSETUSAGE") else []:
+            check(f"{made[part][0]} has {of}", (of == "IFCMATERIALLAYERSET") == (made[part][0] == "IFCCOLUMN"))
+            if of == "IFCMATERIALLAYERSET":
+                columns[tuple(spelt(made[n][1][3]) for n in references(made[usage][1][0]))] += 1
+            else:
+                found[tuple(layers_of(made, part, usage))] += 1
+    check("layers of walls and slabs", found == wanted)
+    check("layers of posts", columns == posts)
 
 
 # ---- where doors hang
@@ -409,7 +460,14 @@ def check_parts(path, house):
     for s in house["solids"]:
         part = house["faces"][s["of"]]["kind"] if s["kind"] == "flight" else kind_of.get(s["kind"]) or s["name"]
         x, y, z = (s["box"][i + 1] - s["box"][i] for i in (0, 2, 4))
-        if part in ("wall", "party", "partition"):
+        for layer in s.get("layers", []):
+            sides = [layer["box"][i + 1] - layer["box"][i] for i in (0, 2, 4)]
+            area[layer["name"]] += math.prod(sides) // sides[axis_of(s)]
+            volume[layer["name"]] += math.prod(sides)
+            number[layer["name"]] += part not in ("wall", "party", "partition") or s["of"] not in walls
+        if "layers" in s:
+            walls |= {s["of"]} if part in ("wall", "party", "partition") else set()
+        elif part in ("wall", "party", "partition"):
             at = house["faces"][s["of"]]["at"]
             area[part] += (y if at[0] == at[1] else x) * z
             number[part] += s["of"] not in walls
@@ -417,7 +475,7 @@ def check_parts(path, house):
         else:
             area[part] += x * y if s["kind"] in ("deck", "roofdeck", "item", "flight") else max(x, y) * z
             number[part] += s["kind"] != "flight"
-        volume[part] += x * y * z
+        volume[part] += 0 if "layers" in s else x * y * z
     for r in house["roofs"]:
         line, wide = [(F(y), F(z)) for y, z in r["profile"]], length_of_roof(r)
         number["roof"] += 1
@@ -463,6 +521,7 @@ check_parts(folder + "/house.parts.csv", house)
 groups = read_dxf(folder + "/house.dxf")
 check_dxf(folder + "/house.dxf", groups, house)
 check_doors(made, house, groups)
+check_layers(made, house)
 title = [spelt(args[2]) for name, args in made.values() if name in ("IFCPROJECT", "IFCBUILDING")]
 check(f"the house is called {title[0]}", options.title is None or title == [options.title] * 2)
 validate(folder + "/house.ifc")

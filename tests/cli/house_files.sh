@@ -35,6 +35,18 @@ title="it's \\ küche 寝室 𐤀 \"x\""
 made "$files/letters.plan" "$letters" letters --title "$title"
 is 'letters of many alphabets' "$($python "$here/../house_files.py" "$scratch/letters" "${reader[@]}" --title "$title")" fine
 
+# Layers of walls, posts and decks: those of the JSON are those of the IFC, and the list of parts is worked out from them.
+"$TARTAN" sample "$files/layers.plan" 3 --library all --seed 4 >"$scratch/houses"
+while read -r house; do
+    made "$files/layers.plan" "$house" layers
+    is 'a house in layers' "$($python "$here/../house_files.py" "$scratch/layers" "${reader[@]}")" fine
+done <"$scratch/houses"
+"$TARTAN" house "$files/layers.plan" "$(head -n 1 "$scratch/houses")" --view section:x=5\' --scale 20 -o "$scratch/close.svg"
+"$TARTAN" house "$files/layers.plan" "$(head -n 1 "$scratch/houses")" --view section:x=5\' --scale 200 -o "$scratch/far.svg"
+cedar='fill="#dfcab9"' # of the boards, light
+grep -q "$cedar" "$scratch/close.svg" || fail 'a section does not show layers that are thick enough on paper'
+! grep -q "$cedar" "$scratch/far.svg" || fail 'a section shows layers that are too thin on paper'
+
 # Doors of every kind, that hang on either side, in walls of both directions.
 for library in row-houses apartments; do
     "$TARTAN" sample $library 1 --library $library --seed 5 >"$scratch/houses"

@@ -153,6 +153,11 @@ static tn_status write_projection(tn_dxf *dxf, const tn_house_projection *p, tn_
     for (size_t i = 0; status == TN_OK && i < p->cut_count; i++)
         if (p->cuts[i].kind != TN_SOLID_PANE && p->cuts[i].kind != TN_SOLID_LEAF)
             hatch(dxf, &p->cuts[i], apart);
+    for (size_t i = 0; status == TN_OK && i < p->layer_count; i++) {
+        const tn_cut_layer *l = &p->layers[i];
+        if (l->meets)
+            line(dxf, LAYER_CUT + (int)l->group, l->line[0][0], l->line[0][1], l->line[1][0], l->line[1][1]);
+    }
     for (size_t i = 0; status == TN_OK && i < p->marks.count; i++)
         mark(dxf, &p->marks.items[i]);
     free(lines);

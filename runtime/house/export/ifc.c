@@ -11,6 +11,9 @@
 #include "runtime/house/model/swings.h"
 #include "runtime/house/schedule/cost.h"
 
+/* How layers lie in a part that has them: in the direction of its axis, against it, or in no direction that is said. */
+typedef enum tn_layers_lie { LIE_ALONG, LIE_AGAINST, LIE_ANYHOW, LIES } tn_layers_lie;
+
 typedef struct tn_ifc {
     tn_stepfile step;
     const tn_house *house;
@@ -22,8 +25,10 @@ typedef struct tn_ifc {
     uint32_t storey;
     tn_swings doors; /* of the storey at hand; owned */
     tn_stepfile_list
-        *made;   /* parts of each kind that the form has no material for, then those of each material; owned */
-    bool failed; /* out of memory */
+        *made;           /* parts of each kind that the form has no material for, then those of each material; owned */
+    unsigned *materials; /* as in `made`, then of the form's layers; owned */
+    tn_stepfile_list layered[TN_LAYERED_COUNT][LIES]; /* parts that consist of layers; owned */
+    bool failed;                                      /* out of memory */
 } tn_ifc;
 
 static void ifc_clear(tn_ifc *ifc)
@@ -36,6 +41,10 @@ static void ifc_clear(tn_ifc *ifc)
     for (uint32_t i = 0; ifc->made && i < TN_SOLID_COUNT + ifc->house->form->record->material_count; i++)
         tn_stepfile_list_clear(&ifc->made[i]);
     free(ifc->made);
+    free(ifc->materials);
+    for (int of = 0; of < TN_LAYERED_COUNT; of++)
+        for (int lie = 0; lie < LIES; lie++)
+            tn_stepfile_list_clear(&ifc->layered[of][lie]);
 }
 
 /* ---- spaces: rooms with their areas, and the walls that bound them */
@@ -119,22 +128,80 @@ static void put_boundaries(tn_ifc *ifc)
     }
 }
 
-static void put_materials(tn_ifc *ifc)
+/* The material at a place in `made`, or of a layer without one in the places behind those. */
+static unsigned put_material(tn_ifc *ifc, uint32_t place)
 {
     const tn_house_form *form = ifc->house->form;
-    for (uint32_t i = 0; i < TN_SOLID_COUNT + form->record->material_count; i++) {
-        const char *list = tn_stepfile_list_text(&ifc->made[i]);
-        if (!list) {
-            ifc->failed |= ifc->made[i].text.failed;
-            continue;
-        }
-        uint32_t record = form->record->material_first + i - TN_SOLID_COUNT;
-        const char *name = i < TN_SOLID_COUNT ? tn_solid_kind_text((tn_solid_kind)i)
-                                              : tn_text(form->module, form->module->MATERIAL_records[record].name);
-        unsigned material = tn_stepfile_add(&ifc->step, "IFCMATERIAL('%s',$,$)", tn_stepfile_text(name).text);
+    uint32_t record = place - TN_SOLID_COUNT, layer = record - form->record->material_count;
+    const char *name =
+        place < TN_SOLID_COUNT ? tn_solid_kind_text((tn_solid_kind)place)
+        : record < form->record->material_count
+            ? tn_text(form->module, form->module->MATERIAL_records[form->record->material_first + record].name)
+            : tn_text(form->module, tn_form_layer(form, layer)->name);
+    if (!ifc->materials[place])
+        ifc->materials[place] = tn_stepfile_add(&ifc->step, "IFCMATERIAL('%s',$,$)", tn_stepfile_text(name).text);
+    return ifc->materials[place];
+}
+
+static void associate(tn_ifc *ifc, tn_stepfile_list *parts, const char *kind, unsigned number, unsigned material)
+{
+    const char *list = tn_stepfile_list_text(parts);
+    if (list)
         tn_stepfile_add(&ifc->step, "IFCRELASSOCIATESMATERIAL('%s',$,$,$,%s,#%u)",
-                        tn_stepfile_guid(&ifc->step, "material", i).text, list, material);
+                        tn_stepfile_guid(&ifc->step, kind, number).text, list, material);
+    ifc->failed |= parts->text.failed;
+}
+
+static unsigned put_layer_set(tn_ifc *ifc, tn_layered of)
+{
+    const tn_house_form *form = ifc->house->form;
+    tn_stepfile *step = &ifc->step;
+    tn_stepfile_list layers = {0};
+    for (uint32_t i = tn_form_layers(form, of); i < form->layers_end[of]; i++) {
+        uint32_t part = tn_layer_part(form, i), material = tn_part_material(ifc->house, part);
+        unsigned made = put_material(ifc, material == TN_NO_RECORD
+                                              ? TN_SOLID_COUNT + form->record->material_count + part - TN_OF_COUNT
+                                              : TN_SOLID_COUNT + material - form->record->material_first);
+        tn_stepfile_list_add(&layers, tn_stepfile_add(step, "IFCMATERIALLAYER(#%u,%s,$,'%s',$,$,$)", made,
+                                                      tn_stepfile_mm((double)tn_form_layer(form, i)->thick).text,
+                                                      tn_stepfile_text(tn_form_part_text(form, part)).text));
     }
+    const char *list = tn_stepfile_list_text(&layers);
+    unsigned set = tn_stepfile_add(step, "IFCMATERIALLAYERSET(%s,'%s',$)", list ? list : "()", tn_names_LAYERED[of]);
+    ifc->failed |= layers.text.failed;
+    tn_stepfile_list_clear(&layers);
+    return set;
+}
+
+/* Walls have their layers across, in the direction of their y axis or against it; decks from the top down. */
+static void put_layers(tn_ifc *ifc, tn_layered of)
+{
+    const tn_form_record *form = ifc->house->form->record;
+    const int64_t thick[TN_LAYERED_COUNT] = {[TN_LAYERED_OUTSIDE] = form->wall,
+                                             [TN_LAYERED_PARTY] = form->wall,
+                                             [TN_LAYERED_PARTITION] = form->partition,
+                                             [TN_LAYERED_DECK] = form->deck};
+    unsigned set = 0;
+    for (int lie = 0; lie < LIES; lie++) {
+        if (ifc->layered[of][lie].count == 0)
+            continue;
+        unsigned material = set = set ? set : put_layer_set(ifc, of);
+        if (lie != LIE_ANYHOW)
+            material =
+                tn_stepfile_add(&ifc->step, "IFCMATERIALLAYERSETUSAGE(#%u,.%s.,.%s.,%s,$)", set,
+                                of == TN_LAYERED_DECK ? "AXIS3" : "AXIS2", lie == LIE_ALONG ? "POSITIVE" : "NEGATIVE",
+                                tn_stepfile_mm(lie == LIE_ALONG ? 0 : (double)thick[of]).text);
+        associate(ifc, &ifc->layered[of][lie], "layers", (unsigned)of * LIES + (unsigned)lie, material);
+    }
+}
+
+static void put_materials(tn_ifc *ifc)
+{
+    for (uint32_t i = 0; i < TN_SOLID_COUNT + ifc->house->form->record->material_count; i++)
+        if (ifc->made[i].count > 0)
+            associate(ifc, &ifc->made[i], "material", i, put_material(ifc, i));
+    for (int of = 0; of < TN_LAYERED_COUNT; of++)
+        put_layers(ifc, (tn_layered)of);
     put_boundaries(ifc);
 }
 
@@ -167,6 +234,13 @@ static unsigned place(tn_ifc *ifc, const tn_box *b)
     return tn_stepfile_placement(&ifc->step, ifc->placement, (double)b->x0, (double)b->y0, (double)b->z0 - floor);
 }
 
+/* The same, turned by a right angle, so that the x axis goes to the front: at the corner that is low then. */
+static unsigned place_turned(tn_ifc *ifc, const tn_box *b)
+{
+    double floor = (double)ifc->house->form->level[ifc->storey];
+    return tn_stepfile_turned(&ifc->step, ifc->placement, (double)b->x1, (double)b->y0, (double)b->z0 - floor, 1);
+}
+
 /* The same, within the placement of a part whose box is `outer`, which is not turned. */
 static unsigned place_within(tn_ifc *ifc, unsigned within, const tn_box *outer, const tn_box *b)
 {
@@ -195,15 +269,28 @@ static void put_volume(tn_ifc *ifc, unsigned part, const char *set, double volum
                     tn_stepfile_guid(step, "volume of part", part).text, part, quantities);
 }
 
+/* Is a wall as IFC has it turned, so that its x axis is along it? Only one with layers has to be. */
+static bool is_turned(const tn_layering *layers)
+{
+    return layers->count > 0 && layers->axis == 0;
+}
+
 /* Keeps a part for its storey, and for what it is made of. */
 static void keep(tn_ifc *ifc, const tn_solid *s, unsigned part, tn_stepfile_list *list)
 {
-    uint32_t material = tn_part_material(ifc->house, tn_solid_made_part(ifc->house, s->kind, s->of, s->item));
+    const tn_form_record *form = ifc->house->form->record;
+    tn_layering layers = tn_solid_layering(ifc->house, s->kind, s->of, s->item);
     tn_stepfile_list_add(list, part);
-    tn_stepfile_list_add(
-        &ifc->made[material == TN_NO_RECORD ? s->kind
-                                            : TN_SOLID_COUNT + material - ifc->house->form->record->material_first],
-        part);
+    if (layers.count > 0) {
+        tn_layers_lie lie = s->kind == TN_SOLID_POST                 ? LIE_ANYHOW
+                            : layers.from_high == is_turned(&layers) ? LIE_ALONG
+                                                                     : LIE_AGAINST;
+        tn_stepfile_list_add(&ifc->layered[tn_form_layer(ifc->house->form, layers.first)->of][lie], part);
+        return;
+    }
+    uint32_t material = tn_part_material(ifc->house, tn_solid_made_part(ifc->house, s->kind, s->of, s->item));
+    uint32_t place = material == TN_NO_RECORD ? s->kind : TN_SOLID_COUNT + material - form->material_first;
+    tn_stepfile_list_add(&ifc->made[place], part);
 }
 
 /* ---- walls */
@@ -278,7 +365,7 @@ static void fill(tn_ifc *ifc, uint32_t number, unsigned opening, unsigned where,
     double x = (double)(turns == 1 || turns == 2 ? at.x1 : at.x0), y = (double)(turns > 1 ? at.y1 : at.y0),
            along = (double)(in_y ? at.y1 - at.y0 : at.x1 - at.x0),
            across = (double)(in_y ? at.x1 - at.x0 : at.y1 - at.y0);
-    unsigned place = tn_stepfile_turned(step, where, x - (double)hole->x0, y - (double)hole->y0, turns),
+    unsigned place = tn_stepfile_turned(step, where, x - (double)hole->x0, y - (double)hole->y0, 0, turns),
              body = tn_stepfile_box(step, along, across, (double)(at.z1 - at.z0));
     unsigned part = tn_stepfile_add(step, "%s('%s',$,'%s',$,$,#%u,#%u,$,%s,%s,.%s.,.%s.,$)",
                                     door ? "IFCDOOR" : "IFCWINDOW", tn_stepfile_guid(step, "filling", number).text,
@@ -307,7 +394,12 @@ static void put_wall(tn_ifc *ifc, size_t first, tn_stepfile_list *list)
     bool open = tn_house_hole(ifc->house, &ifc->house->faces[s->of], &hole);
     if (open)
         cover(&all, &hole);
-    unsigned where = place(ifc, &all), body = shape(ifc, &all);
+    tn_layering layers = tn_solid_layering(ifc->house, s->kind, s->of, s->item);
+    bool turned = is_turned(&layers);
+    unsigned where = turned ? place_turned(ifc, &all) : place(ifc, &all),
+             body = turned ? tn_stepfile_box(step, (double)(all.y1 - all.y0), (double)(all.x1 - all.x0),
+                                             (double)(all.z1 - all.z0))
+                           : shape(ifc, &all);
     unsigned wall = tn_stepfile_add(step, "IFCWALL('%s',$,'%s',$,$,#%u,#%u,$,.%s.)",
                                     tn_stepfile_guid(step, "wall", s->of).text, tn_solid_kind_text(s->kind), where,
                                     body, s->kind == TN_SOLID_PARTITION ? "PARTITIONING" : "SOLIDWALL");
@@ -316,7 +408,10 @@ static void put_wall(tn_ifc *ifc, size_t first, tn_stepfile_list *list)
     put_volume(ifc, wall, "Qto_WallBaseQuantities", volume);
     if (!open)
         return;
-    unsigned at = place_within(ifc, where, &all, &hole), cut = shape(ifc, &hole);
+    unsigned at = turned ? tn_stepfile_turned(step, where, (double)(hole.y0 - all.y0), (double)(all.x1 - hole.x0),
+                                              (double)(hole.z0 - all.z0), 3)
+                         : place_within(ifc, where, &all, &hole),
+             cut = shape(ifc, &hole);
     unsigned opening = tn_stepfile_add(step, "IFCOPENINGELEMENT('%s',$,$,$,$,#%u,#%u,$,.OPENING.)",
                                        tn_stepfile_guid(step, "opening", s->of).text, at, cut);
     tn_stepfile_add(step, "IFCRELVOIDSELEMENT('%s',$,$,$,#%u,#%u)", tn_stepfile_guid(step, "voids", s->of).text, wall,
@@ -607,13 +702,14 @@ static tn_status put_project(tn_ifc *ifc, const char *name, const char *line, tn
     return status == TN_OK && (ifc->failed || step->text.failed) ? tn_fail_memory(error) : status;
 }
 
-static void write_file(const tn_stepfile *step, const char *name, FILE *out)
+/* view: how much of IFC the file has; the usage of layers is not in the smaller of the two. */
+static void write_file(const tn_stepfile *step, const char *name, const char *view, FILE *out)
 {
     fprintf(out,
-            "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(('ViewDefinition [ReferenceView_V1.2]'),'2;1');\n"
+            "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(('ViewDefinition [%s]'),'2;1');\n"
             "FILE_NAME('%s','1970-01-01T00:00:00',(''),(''),'tartan','tartan','');\nFILE_SCHEMA(('IFC4'));\nENDSEC;\n"
             "DATA;\n",
-            tn_stepfile_text(name).text);
+            view, tn_stepfile_text(name).text);
     fwrite(step->text.data, 1, step->text.size, out);
     fputs("ENDSEC;\nEND-ISO-10303-21;\n", out);
 }
@@ -626,8 +722,10 @@ tn_status tn_house_write_ifc(const tn_house *house, const tn_solids *solids, con
     tn_status status = tn_house_rooms(house, &ifc.rooms, error);
     ifc.walls = calloc(house->face_count + 1, sizeof *ifc.walls);
     ifc.spaces = calloc(house->cell_count + 1, sizeof *ifc.spaces);
-    ifc.made = calloc(TN_SOLID_COUNT + house->form->record->material_count, sizeof *ifc.made);
-    if (status == TN_OK && (!ifc.walls || !ifc.spaces || !ifc.made))
+    size_t materials = (size_t)TN_SOLID_COUNT + house->form->record->material_count;
+    ifc.made = calloc(materials, sizeof *ifc.made);
+    ifc.materials = calloc(materials + house->form->record->layer_count, sizeof *ifc.materials);
+    if (status == TN_OK && (!ifc.walls || !ifc.spaces || !ifc.made || !ifc.materials))
         status = tn_fail_memory(error);
     if (status == TN_OK)
         status = tn_house_write(house, &line, error);
@@ -638,7 +736,8 @@ tn_status tn_house_write_ifc(const tn_house *house, const tn_solids *solids, con
         status = put_project(&ifc, name, line.data, error);
     }
     if (status == TN_OK)
-        write_file(&ifc.step, name, out);
+        write_file(&ifc.step, name, house->form->record->layer_count ? "DesignTransferView_V1.0" : "ReferenceView_V1.2",
+                   out);
     ifc_clear(&ifc);
     free(line.data);
     return status;

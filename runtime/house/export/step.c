@@ -160,11 +160,11 @@ unsigned tn_stepfile_placement(tn_stepfile *step, unsigned within, double x, dou
     return tn_stepfile_add(step, "IFCLOCALPLACEMENT(#%u,#%u)", within, axes);
 }
 
-unsigned tn_stepfile_turned(tn_stepfile *step, unsigned within, double x, double y, int turns)
+unsigned tn_stepfile_turned(tn_stepfile *step, unsigned within, double x, double y, double z, int turns)
 {
     static const char *const directions[] = {"1.,0.", "0.,1.", "-1.,0.", "0.,-1."};
-    unsigned point =
-        tn_stepfile_add(step, "IFCCARTESIANPOINT((%s,%s,0.))", tn_stepfile_mm(x).text, tn_stepfile_mm(y).text);
+    unsigned point = tn_stepfile_add(step, "IFCCARTESIANPOINT((%s,%s,%s))", tn_stepfile_mm(x).text,
+                                     tn_stepfile_mm(y).text, tn_stepfile_mm(z).text);
     unsigned along = tn_stepfile_add(step, "IFCDIRECTION((%s,0.))", directions[turns]);
     unsigned axes = tn_stepfile_add(step, "IFCAXIS2PLACEMENT3D(#%u,#%u,#%u)", point, step->z, along);
     return tn_stepfile_add(step, "IFCLOCALPLACEMENT(#%u,#%u)", within, axes);

@@ -54,7 +54,7 @@ void tn_stepfile_list_clear(tn_stepfile_list *list);
 unsigned tn_stepfile_placement(tn_stepfile *step, unsigned within, double x, double y, double z);
 
 /* One whose x axis is turned about z, by so many right angles (0 to 3) counter-clockwise. */
-unsigned tn_stepfile_turned(tn_stepfile *step, unsigned within, double x, double y, int turns);
+unsigned tn_stepfile_turned(tn_stepfile *step, unsigned within, double x, double y, double z, int turns);
 
 /* The shape of a part: a box of that size, from the origin of its placement. */
 unsigned tn_stepfile_box(tn_stepfile *step, double wide, double deep, double high);

@@ -47,12 +47,23 @@ static inline tn_camera tn_house_sheet_camera(void)
     return (tn_camera){60, 30, 480};
 }
 
+/* A layer of what was cut, with the form's number of it. main: the thickest of those there, or the first of such.
+ * least: how thick the thinnest is. line: where it meets the layer before it, if that was cut, too. */
+typedef struct tn_cut_layer {
+    uint32_t layer, group;
+    bool main, meets;
+    double least;
+    double low[2], high[2], line[2][2];
+} tn_cut_layer;
+
 typedef struct tn_house_projection {
     tn_aspect aspect;
     tn_camera camera;
     tn_mesh mesh;      /* nanometres, groups as in tn_material_group, then those of the tn_grouping */
     tn_cut_face *cuts; /* u, v as the camera sees them */
     size_t cut_count;
+    tn_cut_layer *layers; /* u, v likewise */
+    size_t layer_count, layer_room;
     double low[2], high[2]; /* of all of it, without marks */
     tn_marks marks;
     char title[64];

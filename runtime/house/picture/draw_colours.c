@@ -1,4 +1,6 @@
 /* The colours of drawings: of a form's materials, or of kinds of parts. */
+#include <stdlib.h>
+
 #include "runtime/house/picture/draw_parts.h"
 #include "runtime/house/schedule/cost.h"
 
@@ -45,4 +47,24 @@ void tn_house_palette(const tn_house_form *form, tn_aspect_kind kind, double pal
         for (int k = 0; k < 3; k++)
             palette[TN_GROUP_COUNT + m][k] = (double)(colour >> (16 - 8 * k) & 255) / 255 * factor;
     }
+}
+
+#define CUT_LIGHT 0.6 /* how much white there is in the colour of what is cut */
+
+tn_status tn_house_layer_colours(const tn_house *house, double (**made)[3], tn_error *error)
+{
+    const tn_house_form *form = house->form;
+    *made = NULL;
+    if (form->record->layer_count == 0)
+        return TN_OK;
+    double(*of)[3] = *made = malloc(form->record->layer_count * sizeof **made);
+    if (!of)
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; i < form->record->layer_count; i++) {
+        uint32_t material = tn_part_material(house, tn_layer_part(form, i));
+        uint32_t colour = material == TN_NO_RECORD ? 0xd8d8d8 : form->module->MATERIAL_records[material].colour;
+        for (int k = 0; k < 3; k++)
+            of[i][k] = CUT_LIGHT + (1 - CUT_LIGHT) * (double)(colour >> (16 - 8 * k) & 255) / 255;
+    }
+    return TN_OK;
 }

@@ -10,7 +10,8 @@
 
 /* A drawing of a sheet, and where it stands. */
 typedef struct tn_house_drawn {
-    const tn_house_form *form; /* lent */
+    const tn_house_form *form;  /* lent */
+    double (*layer_colours)[3]; /* [layers of the form] where they are cut; owned, NULL if there are none */
     tn_house_projection projection;
     tn_view *view;
     double low[2], high[2]; /* with its marks, nanometres */
@@ -27,6 +28,10 @@ void tn_house_drawn_clear(tn_house_drawn *drawn);
 #define TN_PALETTE_MAX (TN_GROUP_COUNT + TN_MATERIALS_MAX)
 const tn_grouping *tn_house_grouping(const tn_house_form *form, tn_aspect_kind kind, tn_grouping *grouping);
 void tn_house_palette(const tn_house_form *form, tn_aspect_kind kind, double palette[TN_PALETTE_MAX][3]);
+
+/* The colours of the layers of a house's form where they are cut, light, by their materials in its section; NULL if it
+ * has none. The caller frees *made. TN_MEMORY. */
+tn_status tn_house_layer_colours(const tn_house *house, double (**made)[3], tn_error *error);
 
 /* The share of light that comes from all around: more where surfaces have the colours of materials, as bricks and
  * slates in the shade are to be told apart. */

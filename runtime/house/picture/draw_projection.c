@@ -68,6 +68,58 @@ static void paint_cuts(const tn_drawing_frame *f, const tn_house_projection *p)
     hatch(f, p);
 }
 
+/* ---- layers of what was cut */
+
+#define LAYER_POINTS 0.6 /* thinner ones are not drawn, nor those beside them */
+
+static bool is_drawn(const tn_drawing_frame *f, const tn_cut_layer *layer)
+{
+    return layer->least * f->scale >= LAYER_POINTS;
+}
+
+static void trace_layer(const tn_drawing_frame *f, const tn_cut_layer *layer)
+{
+    double x = place_u(f, layer->low[0]), y = place_v(f, layer->high[1]);
+    tn_paint_rectangle(f->paint, x, y, place_u(f, layer->high[0]) - x, place_v(f, layer->low[1]) - y);
+}
+
+static void trace_joint(const tn_drawing_frame *f, const tn_cut_layer *layer)
+{
+    tn_paint_move_to(f->paint, place_u(f, layer->line[0][0]), place_v(f, layer->line[0][1]));
+    tn_paint_line_to(f->paint, place_u(f, layer->line[1][0]), place_v(f, layer->line[1][1]));
+}
+
+/* Light, in the colours of their materials; the thickest of each part is hatched. */
+static void paint_layers(const tn_drawing_frame *f, const tn_house_drawn *drawn)
+{
+    const tn_house_projection *p = &drawn->projection;
+    size_t shown = 0;
+    for (size_t i = 0; i < p->layer_count; i++) {
+        const double *colour = drawn->layer_colours[p->layers[i].layer];
+        if (!is_drawn(f, &p->layers[i]))
+            continue;
+        tn_paint_new_path(f->paint);
+        trace_layer(f, &p->layers[i]);
+        tn_paint_colour(f->paint, colour[0], colour[1], colour[2]);
+        tn_paint_fill(f->paint);
+        shown++;
+    }
+    if (shown == 0)
+        return;
+    tn_paint_new_path(f->paint);
+    for (size_t i = 0; i < p->layer_count; i++)
+        if (is_drawn(f, &p->layers[i]) && p->layers[i].main)
+            trace_layer(f, &p->layers[i]);
+    hatch(f, p);
+    tn_paint_new_path(f->paint);
+    for (size_t i = 0; i < p->layer_count; i++)
+        if (is_drawn(f, &p->layers[i]) && p->layers[i].meets)
+            trace_joint(f, &p->layers[i]);
+    tn_paint_colour(f->paint, 0.1, 0.1, 0.1);
+    tn_paint_line_width(f->paint, 0.35);
+    tn_paint_stroke(f->paint);
+}
+
 /* ---- marks */
 
 typedef struct mark_pen {
@@ -148,6 +200,8 @@ void tn_draw_projection(const tn_canvas *canvas, const tn_house_drawn *drawn, do
     tn_view_paint(canvas, drawn->view, &place);
     if (p->aspect.kind != TN_ASPECT_AXONOMETRIC)
         paint_cuts(&f, p);
+    if (p->layer_count > 0)
+        paint_layers(&f, drawn);
     for (size_t i = 0; i < p->marks.count; i++)
         paint_mark(&f, &p->marks.items[i]);
 }

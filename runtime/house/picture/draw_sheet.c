@@ -39,6 +39,8 @@ tn_status tn_house_view_take(const tn_solids *solids, const tn_aspect *aspect, c
     tn_status status = tn_house_projection_take(
         house, solids, aspect, tn_house_grouping(house->form, aspect->kind, &grouping), &drawn->projection, error);
     if (status == TN_OK)
+        status = tn_house_layer_colours(house, &drawn->layer_colours, error);
+    if (status == TN_OK)
         status = tn_display_list_of_mesh(&drawn->projection.mesh, &display, error);
     if (status == TN_OK) {
         display.closed = true;
@@ -52,6 +54,7 @@ tn_status tn_house_view_take(const tn_solids *solids, const tn_aspect *aspect, c
 void tn_house_drawn_clear(tn_house_drawn *drawn)
 {
     tn_view_free(drawn->view);
+    free(drawn->layer_colours);
     tn_house_projection_clear(&drawn->projection);
 }
 
