@@ -9,6 +9,7 @@
 #include "runtime/house/picture/draw.h"
 #include "runtime/house/rule/witness.h"
 #include "runtime/house/solids.h"
+#include "runtime/house/ways.h"
 
 /* A reason under construction; its texts and lits are owned. */
 typedef struct drawn_reason {
@@ -43,8 +44,21 @@ static void clear_drawing(drawing *d)
 
 /* ---- what is said: takes what the text has */
 
+/* A picture shows names without the backquotes of messages. */
+static void take_quotes(tn_buffer *text)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < text->size; i++)
+        if (text->data[i] != '`')
+            text->data[kept++] = text->data[i];
+    if (text->data)
+        text->data[kept] = '\0';
+    text->size = kept;
+}
+
 static tn_status add_reason(drawing *d, tn_buffer *heading, bool good, tn_error *error)
 {
+    take_quotes(heading);
     drawn_reason reason = {.heading = heading->data, .good = good};
     if (heading->failed || !heading->data ||
         !tn_array_reserve(&d->reasons, &d->room, d->count, 1, sizeof *d->reasons)) {
@@ -57,6 +71,7 @@ static tn_status add_reason(drawing *d, tn_buffer *heading, bool good, tn_error 
 
 static tn_status add_line(drawing *d, tn_buffer *line, tn_error *error)
 {
+    take_quotes(line);
     if (!line->failed && line->data)
         return tn_owneds_add(&d->reasons[d->count - 1].lines, line->data, error);
     free(line->data);
@@ -135,16 +150,77 @@ static tn_status see_found(void *context, const tn_witness *found, tn_error *err
     }
 }
 
-/* The cell that an explanation names. */
-static tn_status light_named(drawing *d, const char *name, tn_error *error)
+/* The cell that an explanation names; TN_NO_CELL: there is none. */
+static uint32_t named_cell(const drawing *d, const char *name)
 {
     char text[96];
     for (uint32_t i = 0; i < d->house->cell_count; i++) {
         tn_cell_text(d->house, i, text, sizeof text);
         if (strcmp(text, name) == 0)
-            return light_cell(d, i, TN_LIT_FAULT, error);
+            return i;
     }
-    return TN_OK;
+    return TN_NO_CELL;
+}
+
+/* How far a person comes in a cell: the things there, the ground, the person, and what is not reached. */
+static tn_status light_stop(drawing *d, uint32_t cell, const tn_way_stop *stop, tn_error *error)
+{
+    uint32_t storey = d->house->cells[cell].storey;
+    tn_status status = light_cell(d, cell, TN_LIT_BESIDE, error);
+    for (size_t i = 0; status == TN_OK && i < stop->items.count; i++)
+        status = light(d, storey, &stop->items.items[i], TN_LIT_THING, error);
+    for (size_t i = 0; status == TN_OK && i < stop->at.ground_count; i++)
+        status = light(d, storey, &stop->at.ground[i], TN_LIT_GROUND, error);
+    if (status == TN_OK && stop->at.square.x0 < stop->at.square.x1)
+        status = light(d, storey, &stop->at.square, TN_LIT_PERSON, error);
+    return status == TN_OK ? light(d, storey, &stop->at.missed, TN_LIT_FAULT, error) : status;
+}
+
+/* What stops a person in a cell in which no tile stands: of the first tile that does; *found: there is one. */
+static tn_status find_tile_stop(const drawing *d, uint32_t cell, bool *tiles, bool *found, tn_way_stop *stop,
+                                tn_error *error)
+{
+    const tn_form_record *form = d->house->form->record;
+    tn_status status = TN_OK;
+    for (uint32_t t = form->tile_first; status == TN_OK && !*found && t < form->tile_first + form->tile_count; t++) {
+        tn_tile_failure failure;
+        if (!tn_tile_is_for(d->house, cell, t))
+            continue;
+        *tiles = true;
+        status = tn_tile_fails(d->house, cell, t, &failure, error);
+        *found = status == TN_OK && tn_tile_failure_stops(&failure);
+        if (*found)
+            status = tn_tile_stop(d->house, cell, t, &failure, stop, error);
+    }
+    return status;
+}
+
+/* Of a house whose functions and faces are known. */
+static tn_status find_stop(const drawing *d, uint32_t cell, bool *found, tn_way_stop *stop, tn_error *error)
+{
+    tn_way_fault fault;
+    bool tiles = false;
+    *found = false;
+    tn_status status = find_tile_stop(d, cell, &tiles, found, stop, error);
+    if (status != TN_OK || tiles)
+        return status;
+    status = tn_cell_ways(d->house, cell, &fault, error);
+    *found = status == TN_OK && !fault.flight && fault.fault != TN_FLOOR_FITS;
+    return *found ? tn_cell_stop(d->house, cell, stop, error) : status;
+}
+
+static tn_status light_bare(drawing *d, const char *name, bool of_house, tn_error *error)
+{
+    uint32_t cell = named_cell(d, name);
+    bool found = false;
+    tn_way_stop stop = {0};
+    if (cell == TN_NO_CELL)
+        return TN_OK;
+    tn_status status = of_house ? find_stop(d, cell, &found, &stop, error) : TN_OK;
+    if (status == TN_OK)
+        status = found ? light_stop(d, cell, &stop, error) : light_cell(d, cell, TN_LIT_FAULT, error);
+    tn_way_stop_clear(&stop);
+    return status;
 }
 
 static tn_status light_named_face(drawing *d, const char *name, tn_error *error)
@@ -185,7 +261,7 @@ static tn_status add_bare(drawing *d, const tn_bare_cell *cell, bool of_house, t
         tn_explained_tile_said(&cell->tiles.items[i], &line);
         status = add_line(d, &line, error);
     }
-    return status == TN_OK ? light_named(d, cell->cell, error) : status;
+    return status == TN_OK ? light_bare(d, cell->cell, of_house, error) : status;
 }
 
 static tn_status add_covered(drawing *d, const tn_explained_house *explained, tn_error *error)
@@ -278,6 +354,7 @@ static tn_status give(tn_session *session, const tn_explain_request *request, co
                       const char *said, tn_status status, tn_error *error, tn_list *files, bool *has)
 {
     tn_picture to = tn_answer_picture_begin(&request->drawn);
+    take_quotes(title);
     tn_lit_house what = {.title = title->data, .said = said};
     to.watch = session->opened->module->watch;
     if (status == TN_OK && title->failed)

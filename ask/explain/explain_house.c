@@ -298,6 +298,29 @@ tn_status tn_explain_found(tn_house_explaining *e, uint32_t function, tn_list *w
 
 /* ---- tiles */
 
+/* Behind the reason, how far a person comes. */
+static void append_stop(const tn_house *house, const tn_way_stop *stop, char *text, size_t size)
+{
+    char said[200];
+    size_t used = strlen(text);
+    tn_way_stop_text(house, stop, said, sizeof said);
+    if (*said)
+        snprintf(text + used, size - used, "; %s", said);
+}
+
+static tn_status append_tile_stop(tn_house_explaining *e, uint32_t cell, uint32_t tile, const tn_tile_failure *failure,
+                                  char *text, size_t size, tn_error *error)
+{
+    tn_way_stop stop = {0};
+    if (!tn_tile_failure_stops(failure))
+        return TN_OK;
+    tn_status status = tn_tile_stop(&e->house, cell, tile, failure, &stop, error);
+    if (status == TN_OK)
+        append_stop(&e->house, &stop, text, size);
+    tn_way_stop_clear(&stop);
+    return status;
+}
+
 static tn_status add_tile(tn_house_explaining *e, uint32_t cell, uint32_t tile, tn_bare_cell *bare, tn_error *error)
 {
     const tn_tile_record *record = &e->judge.module->TILE_records[tile];
@@ -307,6 +330,9 @@ static tn_status add_tile(tn_house_explaining *e, uint32_t cell, uint32_t tile, 
     if (status != TN_OK)
         return status;
     tn_tile_failure_text(&e->judge.form, tile, &failure, tn_house_length_style(&e->house), text, sizeof text);
+    status = append_tile_stop(e, cell, tile, &failure, text, sizeof text, error);
+    if (status != TN_OK)
+        return status;
     tn_failing_tile *to = TN_ADD(failing_tile, bare->tiles, error);
     if (!to)
         return TN_MEMORY;
@@ -324,6 +350,15 @@ static tn_status add_fault(tn_house_explaining *e, uint32_t cell, tn_bare_cell *
     if (status != TN_OK)
         return status;
     tn_way_fault_text(&e->judge.form, &fault, text, sizeof text);
+    if (!fault.flight) {
+        tn_way_stop stop = {0};
+        status = tn_cell_stop(&e->house, cell, &stop, error);
+        if (status == TN_OK)
+            append_stop(&e->house, &stop, text, sizeof text);
+        tn_way_stop_clear(&stop);
+        if (status != TN_OK)
+            return status;
+    }
     bare->has_why = true;
     bare->why = strdup(text);
     return bare->why ? TN_OK : tn_fail_memory(error);

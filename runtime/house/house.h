@@ -226,7 +226,8 @@ typedef struct tn_tile_failure {
     tn_tile_obstacle obstacle;
     uint32_t box, other;
     int64_t wide, deep, high;
-    tn_house_side side;
+    tn_house_side side; /* where its back is */
+    bool mirrored;
     uint32_t kind;
     tn_house_side at;
 } tn_tile_failure;

@@ -125,6 +125,7 @@ typedef struct tn_placing {
     bool mirrored;
     int64_t wide, deep; /* of the clear room, seen with the back behind */
     tn_tile_failure failure;
+    tn_way_stop *stop; /* NULL, or how far people come is wanted, too */
 } tn_placing;
 
 static bool fail(tn_placing *p, tn_tile_obstacle obstacle, uint32_t box, uint32_t other)
@@ -135,7 +136,8 @@ static bool fail(tn_placing *p, tn_tile_obstacle obstacle, uint32_t box, uint32_
                                    .wide = p->wide,
                                    .deep = p->deep,
                                    .high = p->room->height,
-                                   .side = p->side};
+                                   .side = p->side,
+                                   .mirrored = p->mirrored};
     return false;
 }
 
@@ -284,6 +286,8 @@ static tn_status ask_ways(tn_placing *p, const tn_variants *v, size_t count, boo
     if (status == TN_OK)
         status = tn_floor_ask(&asked, &answer, error);
     *good = status == TN_OK && (answer.fits || fail_ways(p, &answer));
+    if (status == TN_OK && !*good && p->stop)
+        status = tn_floor_stop_find(&asked, &answer, &p->stop->at, error);
     tn_floor_answer_clear(&answer);
     obstacles->count = own;
     free(keeps.items);
@@ -418,6 +422,45 @@ tn_status tn_tile_fails(const tn_house *house, uint32_t cell, uint32_t tile, tn_
     tn_status status = enter(&room, error);
     if (status == TN_OK)
         status = find_failure(&room, tile, failure, error);
+    leave(&room);
+    return status;
+}
+
+bool tn_tile_failure_stops(const tn_tile_failure *failure)
+{
+    return failure->obstacle >= TN_TILE_SHUTS;
+}
+
+static tn_status note_items(const tn_variants *v, size_t count, tn_way_stop *stop, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < count; i++) {
+        const tn_box *at = &v->items[i].at;
+        status = tn_rectangles_add(&stop->items, (tn_rectangle){at->x0, at->x1, at->y0, at->y1}, error);
+    }
+    return status;
+}
+
+tn_status tn_tile_stop(const tn_house *house, uint32_t cell, uint32_t tile, const tn_tile_failure *failure,
+                       tn_way_stop *stop, tn_error *error)
+{
+    tn_room room = {.house = house, .cell = cell};
+    tn_variants v = {0};
+    tn_placing p;
+    size_t count = 0;
+    bool good;
+    *stop = (tn_way_stop){.way = tn_cell_way(house, cell)};
+    tn_status status = enter(&room, error);
+    if (status == TN_OK && !make_room(&v, house->form->module->TILE_records[tile].box_count))
+        status = tn_fail_memory(error);
+    if (status == TN_OK && turn(&room, tile, failure->side, &p)) {
+        p.mirrored = failure->mirrored;
+        p.stop = stop;
+        status = try_to_stand(&p, &v, &count, &good, error);
+    }
+    if (status == TN_OK)
+        status = note_items(&v, count, stop, error);
+    tn_variants_clear(&v);
     leave(&room);
     return status;
 }

@@ -287,6 +287,51 @@ tn_status tn_cell_ways(const tn_house *house, uint32_t cell, tn_way_fault *fault
     return status;
 }
 
+void tn_way_stop_clear(tn_way_stop *stop)
+{
+    tn_floor_stop_clear(&stop->at);
+    free(stop->items.items);
+    *stop = (tn_way_stop){0};
+}
+
+tn_status tn_cell_stop(const tn_house *house, uint32_t cell, tn_way_stop *stop, tn_error *error)
+{
+    tn_cell_floor floor;
+    tn_floor_answer answer = {0};
+    *stop = (tn_way_stop){.way = tn_cell_way(house, cell)};
+    tn_status status = tn_cell_floor_find(house, cell, &floor, error);
+    const tn_floor asked = tn_cell_floor_of(&floor);
+    if (status == TN_OK)
+        status = tn_floor_ask(&asked, &answer, error);
+    if (status == TN_OK && !answer.fits)
+        status = tn_floor_stop_find(&asked, &answer, &stop->at, error);
+    tn_floor_answer_clear(&answer);
+    tn_cell_floor_clear(&floor);
+    return status;
+}
+
+/* Lengths are shown to the next eighth of an inch, or millimetre. */
+static void length_text(const tn_house *house, int64_t length, char text[64])
+{
+    tn_length_style style = tn_house_length_style(house);
+    int64_t step = style == TN_STYLE_FEET ? INT64_C(3175000) : INT64_C(1000000);
+    tn_length_write_style((length + step - 1) / step * step, style, text, 64);
+}
+
+void tn_way_stop_text(const tn_house *house, const tn_way_stop *stop, char *text, size_t size)
+{
+    char wide[64], far[64];
+    length_text(house, stop->way, wide);
+    length_text(house, stop->at.short_by, far);
+    bool leaf = stop->at.square.x0 == stop->at.square.x1;
+    if (leaf)
+        text[0] = '\0';
+    else if (stop->at.stands)
+        snprintf(text, size, "a person, %s wide, comes within %s of it", wide, far);
+    else
+        snprintf(text, size, "a person is %s wide there", wide);
+}
+
 static const char *const side_texts[] = {"", "at the back", "at the front", "at the left", "at the right"};
 
 void tn_way_fault_text(const tn_house_form *form, const tn_way_fault *fault, char *text, size_t size)

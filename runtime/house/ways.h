@@ -85,6 +85,26 @@ tn_status tn_cell_ways(const tn_house *house, uint32_t cell, tn_way_fault *fault
 /* The end of a sentence: "no way leads to the `door` at the left". */
 void tn_way_fault_text(const tn_house_form *form, const tn_way_fault *fault, char *text, size_t size);
 
+/* How far one comes in a cell that does not fit (floor.h), for drawings; items: what stands in it. Clear it in any
+ * case. */
+typedef struct tn_way_stop {
+    tn_floor_stop at;
+    int64_t way;
+    tn_rectangles items;
+} tn_way_stop;
+void tn_way_stop_clear(tn_way_stop *stop);
+
+/* Of a cell without tiles and flights that tn_cell_ways finds a fault of. */
+tn_status tn_cell_stop(const tn_house *house, uint32_t cell, tn_way_stop *stop, tn_error *error);
+
+/* Of a tile that fails so that it shuts or cuts a way, closes a keep or meets a leaf; tiles.c. */
+bool tn_tile_failure_stops(const tn_tile_failure *failure);
+tn_status tn_tile_stop(const tn_house *house, uint32_t cell, uint32_t tile, const tn_tile_failure *failure,
+                       tn_way_stop *stop, tn_error *error);
+
+/* "a person, 800mm wide, comes within 360mm of it", in words; empty of a leaf. */
+void tn_way_stop_text(const tn_house *house, const tn_way_stop *stop, char *text, size_t size);
+
 /* ---- stack.c: cells that flights of stairs join */
 
 /* How a flight stands in the common part of two clear rectangles: it climbs away from a side, and its foot is so far

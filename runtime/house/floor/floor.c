@@ -4,6 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "runtime/base/array.h"
+#include "runtime/base/int128.h"
+
 #define NO_PART UINT32_MAX
 
 /* The edges in one direction, ascending, each once. Place 2 i of the cut plane is edge i, place 2 i + 1 what lies
@@ -402,4 +405,189 @@ tn_status tn_floor_fits(const tn_floor *floor, bool *fits, tn_error *error)
     *fits = status == TN_OK && answer.fits;
     tn_floor_answer_clear(&answer);
     return status;
+}
+
+/* ---- where one stops */
+
+/* The parts that are touched by all that is asked before the fault; where that is a keep, by all that is asked. */
+static bool find_joined_before(const tn_floor *f, const tn_floor_answer *a, uint64_t *common)
+{
+    size_t ways = f->passage_count + f->landing_count, end = a->fault == TN_FLOOR_KEEP ? ways : a->of;
+    bool any = false;
+    memset(common, 0xff, a->words * sizeof *common);
+    for (size_t i = 0; i < end; i++) {
+        if (!is_asked(f, i))
+            continue;
+        any = true;
+        keep_common(common, a->joined + i * a->words, a->words);
+    }
+    return any;
+}
+
+/* The closed rectangle of a place of the plane. */
+static tn_rectangle place_at(const tn_cut_plane *p, size_t place)
+{
+    size_t x = place / p->deep, y = place % p->deep;
+    return (tn_rectangle){p->x.at[x / 2], p->x.at[(x + 1) / 2], p->y.at[y / 2], p->y.at[(y + 1) / 2]};
+}
+
+static int64_t nearest_in(int64_t from, int64_t to, int64_t low, int64_t high)
+{
+    return high < from ? from : low > to ? to : low > from ? low : from;
+}
+
+/* The point of a rectangle that is nearest to another, and its distance squared. */
+static tn_int128 distance_of(const tn_rectangle *r, const tn_rectangle *to, int64_t *x, int64_t *y)
+{
+    *x = nearest_in(r->x0, r->x1, to->x0, to->x1);
+    *y = nearest_in(r->y0, r->y1, to->y0, to->y1);
+    tn_int128 dx = *x < to->x0   ? to->x0 - *x
+                   : *x > to->x1 ? *x - to->x1
+                                 : 0,
+              dy = *y < to->y0   ? to->y0 - *y
+                   : *y > to->y1 ? *y - to->y1
+                                 : 0;
+    return dx * dx + dy * dy;
+}
+
+static tn_rectangle square_at(const tn_floor *f, int64_t x, int64_t y)
+{
+    return (tn_rectangle){x - f->way / 2, x + f->way / 2, y - f->way / 2, y + f->way / 2};
+}
+
+/* Where its middle has to come: what is missed, and the places of the middle that would do. */
+static void find_missed(const tn_floor *f, const tn_floor_answer *a, tn_rectangle *missed, tn_rectangle *wanted)
+{
+    if (a->fault == TN_FLOOR_KEEP) {
+        *missed = f->keeps[a->of];
+        *wanted = tn_rectangle_grown(missed, f->way / 2);
+    } else if (a->of < f->passage_count) {
+        const tn_passage *passage = &f->passages[a->of];
+        *wanted = points_of(f, passage);
+        *missed = *wanted;
+        *(passage->side <= TN_HOUSE_FRONT ? &missed->x0 : &missed->y0) -= f->way / 2;
+        *(passage->side <= TN_HOUSE_FRONT ? &missed->x1 : &missed->y1) += f->way / 2;
+    } else {
+        *missed = f->landings[a->of - f->passage_count];
+        *wanted = middle_of(missed);
+    }
+}
+
+/* The root, rounded up. */
+static int64_t root_of(tn_int128 square)
+{
+    int64_t low = 0, high = INT64_C(1) << 62;
+    while (low < high) {
+        int64_t middle = low + (high - low) / 2;
+        if ((tn_int128)middle * middle < square)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* The places of those parts, and the one that is nearest to what is wanted. */
+static tn_status follow_parts(const tn_cut_plane *p, const uint64_t *parts, const tn_rectangle *wanted,
+                              tn_floor_stop *stop, tn_error *error)
+{
+    tn_int128 best = 0;
+    stop->ground = malloc((p->wide * p->deep + 1) * sizeof *stop->ground);
+    if (!stop->ground)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < p->wide * p->deep; i++) {
+        uint32_t part = p->part[i];
+        int64_t x, y;
+        if (part == NO_PART || !(parts[part / 64] >> part % 64 & 1))
+            continue;
+        tn_rectangle place = place_at(p, i);
+        tn_int128 distance = distance_of(&place, wanted, &x, &y);
+        if (!stop->stands || distance < best) {
+            stop->square = square_at(p->floor, x, y);
+            best = distance;
+            stop->short_by = root_of(best);
+        }
+        stop->stands = true;
+        stop->ground[stop->ground_count++] = tn_rectangle_grown(&place, p->floor->way / 2);
+    }
+    return TN_OK;
+}
+
+/* Rectangles that cover the same, and are apart: columns between their edges, and in each as few as there can be. */
+static tn_status set_apart(tn_floor_stop *stop, tn_error *error)
+{
+    size_t count = stop->ground_count, made = 0, room = 0;
+    tn_rectangle *apart = NULL;
+    tn_floor_edges x = {.at = malloc((2 * count + 1) * sizeof *x.at)},
+                   y = {.at = malloc((2 * count + 1) * sizeof *y.at)};
+    bool ok = x.at && y.at;
+    for (size_t i = 0; ok && i < count; i++) {
+        x.at[x.count++] = stop->ground[i].x0;
+        x.at[x.count++] = stop->ground[i].x1;
+        y.at[y.count++] = stop->ground[i].y0;
+        y.at[y.count++] = stop->ground[i].y1;
+    }
+    if (ok) {
+        order(&x);
+        order(&y);
+    }
+    for (size_t i = 0; ok && i + 1 < x.count; i++)
+        for (size_t k = 0; ok && k + 1 < y.count; k++) {
+            const tn_rectangle cell = {x.at[i], x.at[i + 1], y.at[k], y.at[k + 1]};
+            tn_rectangle *last = made > 0 ? &apart[made - 1] : NULL;
+            if (!meets_any(&cell, stop->ground, count))
+                continue;
+            if (last && last->x0 == cell.x0 && last->y1 == cell.y0) {
+                last->y1 = cell.y1;
+                continue;
+            }
+            ok = tn_array_reserve(&apart, &room, made, 1, sizeof *apart);
+            if (ok)
+                apart[made++] = cell;
+        }
+    free(x.at);
+    free(y.at);
+    free(stop->ground);
+    stop->ground = apart;
+    stop->ground_count = ok ? made : 0;
+    return ok ? TN_OK : tn_fail_memory(error);
+}
+
+static tn_status find_stop(const tn_cut_plane *p, const tn_floor_answer *a, tn_floor_stop *stop, tn_error *error)
+{
+    tn_rectangle wanted;
+    uint64_t *parts = calloc(a->words, sizeof *parts);
+    tn_status status = parts ? TN_OK : tn_fail_memory(error);
+    find_missed(p->floor, a, &stop->missed, &wanted);
+    tn_rectangle middle = middle_of(&wanted);
+    stop->square = square_at(p->floor, middle.x0, middle.y0);
+    if (status == TN_OK && find_joined_before(p->floor, a, parts))
+        status = follow_parts(p, parts, &wanted, stop, error);
+    if (status == TN_OK)
+        status = set_apart(stop, error);
+    free(parts);
+    return status;
+}
+
+tn_status tn_floor_stop_find(const tn_floor *floor, const tn_floor_answer *a, tn_floor_stop *stop, tn_error *error)
+{
+    tn_cut_plane plane = {.floor = floor};
+    tn_status status = TN_OK;
+    *stop = (tn_floor_stop){0};
+    if (a->fault == TN_FLOOR_LEAF) {
+        stop->missed = floor->leaves[a->of];
+        return TN_OK;
+    }
+    if (!find_edges(&plane) || !find_free(&plane) || !find_parts(&plane))
+        status = tn_fail_memory(error);
+    if (status == TN_OK)
+        status = find_stop(&plane, a, stop, error);
+    clear_plane(&plane);
+    return status;
+}
+
+void tn_floor_stop_clear(tn_floor_stop *stop)
+{
+    free(stop->ground);
+    *stop = (tn_floor_stop){0};
 }

@@ -65,6 +65,23 @@ typedef struct tn_floor_answer {
 tn_status tn_floor_ask(const tn_floor *floor, tn_floor_answer *answer, tn_error *error);
 void tn_floor_answer_clear(tn_floor_answer *answer);
 
+/* How far a person comes on a floor that does not fit: over the ground, which is what the square covers on its ways
+ * from all that is joined before the fault, in rectangles that are apart; then it stands at `square`, the place nearest
+ * to what is missed: the stretch of a passage, a landing, a keep or a leaf. stands: false if nobody comes in at all;
+ * then the square is where the passage or landing would have it. Of a leaf only that is told. */
+typedef struct tn_floor_stop {
+    tn_rectangle *ground;
+    size_t ground_count;
+    bool stands;
+    tn_rectangle square, missed;
+    int64_t short_by; /* from the square's place to one that would do, rounded up */
+} tn_floor_stop;
+
+/* answer: of that floor, with a fault. TN_MEMORY. Clear it in any case. */
+tn_status tn_floor_stop_find(const tn_floor *floor, const tn_floor_answer *answer, tn_floor_stop *stop,
+                             tn_error *error);
+void tn_floor_stop_clear(tn_floor_stop *stop);
+
 /* Does the leaf have room? */
 bool tn_floor_leaf_has_room(const tn_floor *floor, size_t leaf);
 

@@ -37,8 +37,16 @@ typedef struct tn_house_gallery {
 } tn_house_gallery;
 
 /* What of a house is lit up on its plans, and how: red, for a part that is at fault; rose, for what belongs to one;
- * green, for what is as it should be. at: in a storey; a wall is without width or depth. */
-typedef enum tn_lit_tone { TN_LIT_FAULT, TN_LIT_BESIDE, TN_LIT_GOOD } tn_lit_tone;
+ * green, for what is as it should be; grey, for what would stand there; pale blue, for the ground that a person comes
+ * to, and a blue square, for the person. at: in a storey; a wall is without width or depth. */
+typedef enum tn_lit_tone {
+    TN_LIT_FAULT,
+    TN_LIT_BESIDE,
+    TN_LIT_GOOD,
+    TN_LIT_THING,
+    TN_LIT_GROUND,
+    TN_LIT_PERSON
+} tn_lit_tone;
 
 typedef struct tn_lit {
     uint32_t storey;

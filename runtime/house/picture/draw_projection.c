@@ -211,7 +211,8 @@ void tn_draw_projection(const tn_canvas *canvas, const tn_house_drawn *drawn, do
 #define WALL_LIGHT 4.0 /* points: how broad a wall shines */
 
 static const double lights[][3] = {
-    [TN_LIT_FAULT] = {0.78, 0.20, 0.17}, [TN_LIT_BESIDE] = {0.93, 0.62, 0.58}, [TN_LIT_GOOD] = {0.36, 0.66, 0.38}};
+    [TN_LIT_FAULT] = {0.78, 0.20, 0.17}, [TN_LIT_BESIDE] = {0.93, 0.62, 0.58}, [TN_LIT_GOOD] = {0.36, 0.66, 0.38},
+    [TN_LIT_THING] = {0.45, 0.45, 0.45}, [TN_LIT_GROUND] = {0.35, 0.60, 0.90}, [TN_LIT_PERSON] = {0.10, 0.25, 0.65}};
 
 /* A space shines through, with a clear edge inside its own; a wall is a broad line. */
 static void paint_lit(const tn_drawing_frame *f, const tn_lit *lit)
@@ -230,10 +231,17 @@ static void paint_lit(const tn_drawing_frame *f, const tn_lit *lit)
     tn_paint_rectangle(f->paint, x0, y0, x1 - x0, y1 - y0);
     tn_paint_translucent(f->paint, c[0], c[1], c[2], lit->tone == TN_LIT_BESIDE ? 0.25 : 0.35);
     tn_paint_fill(f->paint);
+    if (lit->tone == TN_LIT_GROUND)
+        return; /* made of pieces */
     tn_paint_rectangle(f->paint, x0 + 1, y0 + 1, fmax(x1 - x0 - 2, 0), fmax(y1 - y0 - 2, 0));
     tn_paint_colour(f->paint, c[0], c[1], c[2]);
     tn_paint_line_width(f->paint, 1.5);
     tn_paint_stroke(f->paint);
+}
+
+static int pass_of(tn_lit_tone tone)
+{
+    return tone == TN_LIT_PERSON ? 2 : tone == TN_LIT_FAULT ? 1 : 0;
 }
 
 void tn_draw_lits(const tn_canvas *canvas, const tn_house_drawn *drawn, double points_per_nm, const tn_lit *lits,
@@ -241,9 +249,9 @@ void tn_draw_lits(const tn_canvas *canvas, const tn_house_drawn *drawn, double p
 {
     tn_drawing_frame f = frame_of(canvas, drawn, points_per_nm);
     uint32_t storey = drawn->projection.aspect.storey;
-    for (int pass = 0; pass < 2; pass++) /* what is at fault comes last */
+    for (int pass = 0; pass < 3; pass++) /* what is at fault comes last but for the person */
         for (size_t i = 0; i < count; i++)
-            if (lits[i].storey == storey && (lits[i].tone == TN_LIT_FAULT) == (pass == 1))
+            if (lits[i].storey == storey && pass_of(lits[i].tone) == pass)
                 paint_lit(&f, &lits[i]);
     tn_paint_colour(f.paint, 0, 0, 0);
 }

@@ -252,10 +252,94 @@ static bool fits(const drawn *d, const moved *m)
     return fit;
 }
 
+/* ---- how far one comes */
+
+/* The parts that all before the fault have in common; *any: there is something before it. An alcove has no such fault.
+ */
+static uint64_t parts_before(const drawn *d, const moved *m, const tn_floor_answer *a, bool *any)
+{
+    const tn_floor *f = &d->floor;
+    size_t ways_in = f->passage_count + f->landing_count, end = a->fault == TN_FLOOR_KEEP ? ways_in : a->of;
+    bool alcove = ways_in == 1 && f->passage_count == 1 && f->keep_count == 0;
+    uint64_t common = UINT64_MAX;
+    *any = false;
+    for (size_t i = 0; i < end; i++) {
+        if (alcove && f->passages[i].kind != TN_PASSAGE_DOOR)
+            continue;
+        common &= parts_at(d, m, i);
+        *any = true;
+    }
+    return common;
+}
+
+static int64_t beyond(int64_t at, int64_t from, int64_t to)
+{
+    return at < from ? from - at : at > to ? at - to : 0;
+}
+
+/* Is a half unit's place within one of the rectangles? */
+static size_t covering(const tn_rectangle *rectangles, size_t count, int64_t x, int64_t y)
+{
+    size_t found = 0;
+    for (size_t i = 0; i < count; i++)
+        found += 2 * rectangles[i].x0 <= x && x < 2 * rectangles[i].x1 && 2 * rectangles[i].y0 <= y &&
+                 y < 2 * rectangles[i].y1;
+    return found;
+}
+
+/* The ground is what squares cover whose middles are in those parts; no rectangle of it covers what another does. */
+static void compare_ground(const drawn *d, const moved *m, uint64_t parts, const tn_floor_stop *stop)
+{
+    static bool covered[SPAN][SPAN];
+    int way = (int)d->floor.way;
+    memset(covered, 0, sizeof covered);
+    for (int x = 0; x < SPAN; x++)
+        for (int y = 0; y < SPAN; y++)
+            for (int i = x - way; m->part[x][y] && parts >> m->part[x][y] & 1 && i < x + way; i++)
+                for (int k = y - way; k < y + way; k++)
+                    covered[i][k] = true;
+    for (int x = 0; x < SPAN; x++)
+        for (int y = 0; y < SPAN; y++)
+            assert_int_equal(covering(stop->ground, stop->ground_count, x - 2 * REACH, y - 2 * REACH), covered[x][y]);
+}
+
+/* The nearest place that is reached, by trying all of them. */
+static void compare_stop(const drawn *d, const moved *m, const tn_floor_answer *a)
+{
+    const tn_floor *f = &d->floor;
+    tn_floor_stop stop;
+    tn_error error;
+    bool any;
+    uint64_t parts = parts_before(d, m, a, &any);
+    int64_t best = INT64_MAX;
+    tn_rectangle near = a->fault == TN_FLOOR_KEEP ? tn_rectangle_grown(&f->keeps[a->of], f->way / 2) : f->clear,
+                 wanted = a->fault == TN_FLOOR_KEEP  ? doubled(&near)
+                          : a->of < f->passage_count ? on_side(f, &f->passages[a->of])
+                                                     : on_landing(&f->landings[a->of - f->passage_count]);
+    assert_int_equal(tn_floor_stop_find(f, a, &stop, &error), TN_OK);
+    for (int x = 0; any && x < SPAN; x++)
+        for (int y = 0; y < SPAN; y++) {
+            int64_t dx = beyond(x - 2 * REACH, wanted.x0, wanted.x1), dy = beyond(y - 2 * REACH, wanted.y0, wanted.y1);
+            if (m->part[x][y] && parts >> m->part[x][y] & 1 && dx * dx + dy * dy < best)
+                best = dx * dx + dy * dy;
+        }
+    assert_int_equal(stop.stands, best < INT64_MAX);
+    assert_int_equal(stop.square.x1 - stop.square.x0, f->way);
+    if (stop.stands) {
+        int64_t x = stop.square.x0 + stop.square.x1, y = stop.square.y0 + stop.square.y1,
+                dx = beyond(x, wanted.x0, wanted.x1), dy = beyond(y, wanted.y0, wanted.y1), by = 2 * stop.short_by;
+        assert_int_equal(dx * dx + dy * dy, best);
+        assert_true(parts >> m->part[x + 2 * REACH][y + 2 * REACH] & 1);
+        assert_true(by * by >= best && (by == 0 || (by - 2) * (by - 2) < best));
+        compare_ground(d, m, parts, &stop);
+    }
+    tn_floor_stop_clear(&stop);
+}
+
 static void test_brute_force(void **state)
 {
     uint64_t s = 1;
-    size_t fit = 0;
+    size_t fit = 0, stopped = 0;
     static drawn d;
     static moved m;
     (void)state;
@@ -273,9 +357,14 @@ static void test_brute_force(void **state)
         assert_int_equal(tn_floor_fits(&d.floor, &one, &error), TN_OK);
         assert_int_equal(one, answer.fits);
         fit += answer.fits;
+        if (!answer.fits && answer.fault != TN_FLOOR_LEAF) {
+            compare_stop(&d, &m, &answer);
+            stopped++;
+        }
         tn_floor_answer_clear(&answer);
     }
     assert_in_range(fit, CELLS / 8, CELLS - CELLS / 8);
+    assert_true(stopped > CELLS / 8);
 }
 
 /* A gap of exactly the way is passed; one that is narrower by a unit is not, and the fault is named. */
