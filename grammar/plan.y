@@ -1088,6 +1088,8 @@ literal_word
     : NAME
     | NUMBER
     | LENGTH
+    | AREA
+    | DECIMAL
     | NOT                                       { $$ = tn_ast_not_word(parse, @$); }
     | ABSENT                                    { $$ = tn_ast_word_new(parse, TN_WORD_ABSENT, @$, "-", 0); }
     | OF_DEPTH                                  { $$ = tn_ast_word_new(parse, TN_WORD_OF_DEPTH, @$, ":", 0); }

@@ -61,6 +61,7 @@ typedef struct tn_attachments {
  * compiler never runs a rule, so its caller counts, on a module of what the text says without such schemas. */
 typedef struct tn_census_row {
     const char **values; /* [columns]: "p/q", in nanometres to the measure's power */
+    const char **texts;  /* [columns]: the same as a word that people read: "12.5m2", "1/3" */
     const char *plans;   /* how many plans: a decimal number above 0 */
 } tn_census_row;
 

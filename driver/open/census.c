@@ -6,6 +6,7 @@
 
 #include "runtime/load.h"
 #include "runtime/plan/library/library.h"
+#include "runtime/plan/measure/amount.h"
 #include "runtime/plan/measure/crosstab.h"
 #include "runtime/plan/measure/named.h"
 
@@ -153,6 +154,16 @@ static const char *keep(tn_arena *arena, char *text)
     return kept;
 }
 
+/* A value as a word (malloc); NULL: out of memory. */
+static char *word_of(const counted *c, int power, const mpq_t value)
+{
+    tn_buffer text = {0};
+    if (tn_amount_write_word(tn_amount_unit_of(c->schema, power), value, &text) && tn_buffer_append(&text, "", 1))
+        return text.data;
+    free(text.data);
+    return NULL;
+}
+
 static tn_length_style style_of(const tn_schema *schema)
 {
     uint32_t field = tn_schema_length_field(schema);
@@ -181,9 +192,12 @@ static tn_status fill(const counted *c, tn_arena *arena, tn_census *census, tn_e
     for (size_t i = 0; i < c->table.count; i++) {
         tn_census_row *row = &census->rows[i];
         row->values = tn_arena_alloc_array(arena, sizeof *row->values, columns + 1);
+        row->texts = tn_arena_alloc_array(arena, sizeof *row->texts, columns + 1);
         row->plans = keep(arena, mpz_get_str(NULL, 10, c->table.rows[i].plans));
-        for (size_t k = 0; row->values && k < columns; k++)
+        for (size_t k = 0; row->values && row->texts && k < columns; k++) {
             row->values[k] = keep(arena, mpq_get_str(NULL, 10, c->table.rows[i].values[k]));
+            row->texts[k] = keep(arena, word_of(c, powers[k], c->table.rows[i].values[k]));
+        }
     }
     census->count = c->table.count;
     census->columns = columns;

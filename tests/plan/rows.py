@@ -14,6 +14,8 @@ import re
 import subprocess
 import sys
 import tempfile
+from decimal import Decimal
+from fractions import Fraction
 
 PROGRAM, FIRST, LAST = sys.argv[1], int(sys.argv[2]), int(sys.argv[3])
 ORACLES = sys.argv[4] if len(sys.argv) > 4 else None
@@ -44,7 +46,7 @@ def write(seed, name, text):
 # ---- houses, and what is said of them
 
 USES = ("home", "shop", "yard")
-HOUSE = "schema house {\n  width = 2m | 3m | 5m\n  use = home | shop | yard\n}\n"
+HOUSE = "schema house {\n  width = 2m | 3m | 5m\n  use = home | shop | yard\n  number floor = 3m * width\n}\n"
 TRAYS = [(w, u) for w in (2, 3, 5) for u in USES]
 
 
@@ -59,6 +61,16 @@ def widths_of(use):
 MEASURES = [("sum(width)", lambda h: sum(w for w, _ in h)),
             *[(f"sum(width of tray({u}))", widths_of(u)) for u in USES],
             ("2 * sum(width) + 1m * quantity(tray(shop))", lambda h: 2 * sum(w for w, _ in h) + sum(u == "shop" for _, u in h))]
+def of_use(house, use):
+    return sum(w for w, u in house if u == use)
+
+
+# Measures that are no lengths: what a house has of them, and their unit.
+NUMBERS = [("quantity(tray(shop))", lambda h: sum(u == "shop" for _, u in h), ""),
+           ("quantity(any) - 2 * quantity(tray(yard))", lambda h: len(h) - 2 * sum(u == "yard" for _, u in h), ""),
+           ("(sum(width of tray(home)) + 1m) / (sum(width) + 2m)", lambda h: Fraction(of_use(h, "home") + 1, sum(w for w, _ in h) + 2), ""),
+           ("sum(floor of tray(home))", lambda h: 3 * of_use(h, "home"), "m2"),
+           ("sum(floor) / 4", lambda h: Fraction(3 * sum(w for w, _ in h), 4), "m2")]
 RULES = [("neighbour(beginning, tray(shop))", lambda h: bool(h) and h[0][1] == "shop"),
          ("symmetric neighbour(tray(home), tray(yard))", lambda h: any({a[1], b[1]} == {"home", "yard"} for a, b in zip(h, h[1:]))),
          ("quantity(tray(5m)) >= 1", lambda h: any(w == 5 for w, _ in h)),
@@ -88,10 +100,38 @@ def wide(field, limit):
     return (f"sum({field}) > {limit}m", lambda row: sum(int(t[field][:-1]) for t in row) > limit)
 
 
+def word(number, unit):
+    """A value as plans have it: a decimal if it ends soon."""
+    number = Fraction(number)
+    text = str(number) if 10 ** 12 % number.denominator else format(Decimal(number.numerator) / number.denominator, "f")
+    return text + unit
+
+
+def number_of(text):
+    return Fraction(text.removesuffix("m2"))
+
+
+def asked_of_numbers(field, R):
+    """What is asked of such a field: as numbers are, in each spelling."""
+    low, unit = R.choice([0, 1, 2]), "m2" if field.endswith("m2") else ""
+    high = low + R.choice([1, 3])
+    sums = lambda row: sum(number_of(t[field]) for t in row)
+    return [(f"quantity(tray({field} >= {low}.5{unit})) = 1", lambda row: sum(number_of(t[field]) >= Fraction(2 * low + 1, 2) for t in row) == 1),
+            (f"tray({field} in {low}{unit}..{high}{unit})", lambda row: any(low <= number_of(t[field]) <= high for t in row)),
+            (f"sum({field}) > {high}{unit}", lambda row: sums(row) > high),
+            (f"tray({field} > {low}{unit}) beside tray({field} <= {low}{unit})",
+             lambda row: any((number_of(a[field]) > low) != (number_of(b[field]) > low) for a, b in zip(row, row[1:]))),
+            (f"every v, u in {field} (neighbour(tray({field} v), tray({field} u)) implies u - v <= {low}{unit})",
+             lambda row: all(number_of(b[field]) - number_of(a[field]) <= low for a, b in zip(row, row[1:])))]
+
+
 def fields_of(R):
     """name -> (what the schema says, what a house has, None of an ordinary field), in an order."""
     measures, rules = R.sample(MEASURES, R.randint(0, 2)), R.sample(RULES, R.randint(0, 2))
     made = [(f"len{i}", f"measure m{i}", lambda h, f=f: f"{f(h)}m") for i, (_, f) in enumerate(measures)]
+    for words, f, unit in R.sample(NUMBERS, R.choice([0, 0, 1, 1, 2])):
+        made.append((f"n{len(made)}{unit}", f"measure m{len(measures)}", lambda h, f=f, unit=unit: word(f(h), unit)))
+        measures = measures + [(words, f)]
     made += [(f"is{i}", f"rule r{i}", lambda h, i=i, f=f: f"is{i}" if f(h) else "-") for i, (_, f) in enumerate(rules)]
     if not made or R.random() < .4:
         made.insert(R.randint(0, len(made)), ("side", "sunny | shady", None))
@@ -99,7 +139,7 @@ def fields_of(R):
 
 
 def key_of(values):
-    return [(int(v[:-1]) if re.fullmatch(r"\d+m", v) else v != "-" if v == "-" or v.startswith("is") else v == "shady") for v in values]
+    return [number_of(v) if re.fullmatch(r"-?[0-9./]+(m2)?", v) else (int(v[:-1]) if re.fullmatch(r"\d+m", v) else v != "-" if v == "-" or v.startswith("is") else v == "shady") for v in values]
 
 
 def trays_of(houses, fields):
@@ -121,18 +161,22 @@ def check(seed):
     trays = trays_of(houses, fields)
     names = [name for name, _, _ in fields]
     clauses = [alike(n) for n in names] + [wide(n, R.randint(5, 20)) for n in names if n.startswith("len")]
+    clauses += [c for n in names if re.match(r"n\d", n) for c in asked_of_numbers(n, R)]
     clauses += [f(n) for n in names if n.startswith("is") for f in (pair_of, lone)]
     if "side" not in names and R.random() < .3:
         fields = fields + [("side", "sunny | shady", None)]
         names, trays = names + ["side"], trays_of(houses, fields)
-    street, wrong = R.choice(clauses)
     most = next(n for n in (4, 3, 2, 1) if len(trays) ** n <= 6000 or n == 1)
     text = HOUSE + f"library houses using house {{ trays {shortest}..{longest}  prune {prune} }}\n"
     text += "".join(f"measure m{i} using house = {words}\n" for i, (words, _) in enumerate(measures))
     text += "".join(f"rule r{i} using house = {words}\n" for i, (words, _) in enumerate(rules))
     text += "schema lots of houses {\n" + "".join(f"  {name} = {said}\n" for name, said, _ in fields) + "}\n"
-    text += f"rule bad using lots = {street}\nlibrary street using lots {{ trays 0..{most}  prune bad }}\n"
-    path = write(seed, "rows.plan", text)
+    for street, wrong in R.sample(clauses, len(clauses)):       # one that some tray can meet
+        path = write(seed, "rows.plan", text + f"rule bad using lots = {street}\nlibrary street using lots {{ trays 0..{most}  prune bad }}\n")
+        if "error[E0309]" not in subprocess.run([PROGRAM, "check", path], capture_output=True, text=True).stderr:
+            break
+    else:
+        return
     rows = [row for n in range(most + 1) for row in itertools.product(trays, repeat=n)]
     met = [wrong([dict(zip(names, values)) for values, _ in row]) for row in rows]
     kept = [row for row, bad in zip(rows, met) if not bad]
@@ -213,7 +257,7 @@ def check_houses(seed, R, path, module, kept, trays):
         row = run("unrank", path, *asked, str(k)).strip("\n")
         if k < len(first):
             same(seed, f"row of houses {k}", row, first[k])
-        same(seed, f"rank of row of houses {k}", run("rank", path, *asked, row).strip(), str(k))
+        same(seed, f"rank of row of houses {k}", run("rank", path, *asked, "--", row).strip(), str(k))
         found = json.loads(run("enumerate", path, *asked, "--from", str(k), "--limit", "1", "-f", "json"))
         same(seed, f"JSON of row of houses {k}", (found["rank"], found["row"]), (str(k), row))
         same(seed, f"houses of row of houses {k}",
@@ -224,7 +268,7 @@ def check_houses(seed, R, path, module, kept, trays):
     others = [stands[0] for _, stands in trays if row and stands[0] not in row[0][1]]
     if others:
         wrong = with_houses(row, [others[0], *(stands[0] for _, stands in row[1:])])
-        refused = subprocess.run([PROGRAM, "rank", path, *asked, wrong], capture_output=True, text=True)
+        refused = subprocess.run([PROGRAM, "rank", path, *asked, "--", wrong], capture_output=True, text=True)
         same(seed, "a house of another tray", (refused.returncode, "E0906" in refused.stderr), (1, True))
     if seed % 5 == 0 and 1 < total <= 40:
         draws = [run("sample", path, "1", *asked, "--seed", str(k)).strip("\n") for k in range(300)]

@@ -53,6 +53,19 @@ static int read_unit(const char *unit, mpq_t number)
     return 0;
 }
 
+/* Of a value in a plan: "1/3". */
+static bool read_fraction(const char *text, size_t size, mpq_t number)
+{
+    char digits[64];
+    snprintf(digits, sizeof digits, "%.*s", (int)size, text);
+    bool good = size < sizeof digits && mpq_set_str(number, digits, 10) == 0 && mpz_sgn(mpq_denref(number)) != 0;
+    if (good)
+        mpq_canonicalize(number);
+    else
+        mpq_set_ui(number, 0, 1);
+    return good;
+}
+
 tn_sum_amount tn_amount_read(tn_check *check, const tn_ast_word *word)
 {
     tn_sum_amount amount = {0};
@@ -62,14 +75,16 @@ tn_sum_amount tn_amount_read(tn_check *check, const tn_ast_word *word)
         return (tn_sum_amount){.value = word->exact, .power = word->power};
     mpq_t number;
     mpq_init(number);
-    size_t digits = strspn(word->text, "0123456789.");
+    size_t digits = strspn(word->text, "0123456789."), over = word->text[digits] == '/';
+    over = over ? 1 + strspn(word->text + digits + 1, "0123456789") : 0;
     bool good = true;
     if (word->kind == TN_WORD_NUMBER || word->kind == TN_WORD_LENGTH) {
         mpq_set_si(number, word->value, 1);
         amount.power = word->kind == TN_WORD_LENGTH;
         amount.any = word->kind == TN_WORD_NUMBER && word->value == 0;
     } else {
-        good = tn_decimal_read(word->text, digits, number);
+        good = over ? read_fraction(word->text, digits + over, number) : tn_decimal_read(word->text, digits, number);
+        digits += over;
         amount.power = read_unit(word->text + digits, number);
         if (word->text[digits] == '%')
             mpz_mul_ui(mpq_denref(number), mpq_denref(number), 100);
@@ -237,8 +252,8 @@ static bool check_name(tn_check *check, const tn_checked_schema *schema, tn_ast_
     *amount = (tn_sum_amount){.power = 1};
     if (field && (field->kind == TN_FIELD_LENGTH || field->kind == TN_FIELD_ZONE))
         return tn_check_detail(check, field, figure->detail);
-    if (field && field->ordered) { /* the place of the tray's value, the first is 1 */
-        amount->power = 0;
+    if (field && field->ordered) { /* the place of the tray's value, or what a measure says */
+        amount->power = field->power;
         figure->place = true;
         return tn_check_detail(check, field, figure->detail);
     }

@@ -23,7 +23,8 @@ typedef struct tn_checked_value {
     const char *name, *spelling, *measure, *doc; /* as in a VALUE record; doc may be NULL */
     tn_fill_role role;
     int64_t length;
-    bool has_depth; /* of a zone's fill */
+    bool has_depth;     /* of a zone's fill */
+    const char *number; /* of a field whose values have an order: what it is in sums, "p/q" */
     tn_span span;
 } tn_checked_value;
 
@@ -35,6 +36,8 @@ typedef struct tn_checked_field {
     tn_checked_value *values;
     uint32_t value_count;
     bool ordered;         /* a choice whose values go from the least to the greatest */
+    bool measured;        /* such a choice whose values are numbers that a measure says, and no names */
+    int power;            /* theirs: of a length */
     uint32_t older_count; /* of them: values that the schema it is made from has */
     uint32_t first_bit;   /* of its values in the schema's masks */
     struct tn_checked_sum
@@ -473,6 +476,8 @@ void tn_say_items(const tn_checked_schema *schema, char *text, size_t size); /* 
 /* A value that the field does not have: E0303. */
 void tn_report_value(tn_check *check, const tn_checked_schema *schema, uint32_t field, const tn_ast_word *word);
 /* E0008; schema: the one whose lengths are meant, or NULL. */
+/* A field whose values are plain numbers, which a measure says; NULL: there is none. */
+const tn_checked_field *tn_field_of_numbers(const tn_checked_schema *schema);
 void tn_report_unit(tn_check *check, const tn_checked_schema *schema, const tn_ast_word *number);
 bool tn_word_is(const tn_ast_word *word, const char *text); /* case does not count */
 

@@ -1,6 +1,6 @@
 /* The values that quantifiers go through: as expressions, and compared with one another or with words of their field.
  */
-#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "compiler/plan/check/expand.h"
@@ -109,13 +109,15 @@ tn_ast_expr *tn_place_expression(tn_rule_expansion *expansion, const tn_checked_
 {
     tn_ast_expr *number = TN_NEW(expansion->check->arena, tn_ast_expr);
     tn_ast_word *word = TN_NEW(expansion->check->arena, tn_ast_word);
-    char text[16];
-    int64_t place = (int64_t)place_of(field, value) + 1;
-    snprintf(text, sizeof text, "%lld", (long long)place);
+    const char *exact = field->values[place_of(field, value)].number;
     if (!number || !word)
         return NULL;
-    *word = (tn_ast_word){.node.span = value->node.span, .kind = TN_WORD_NUMBER, .value = place};
-    word->text = tn_arena_copy(expansion->check->arena, text, strlen(text));
+    *word = (tn_ast_word){.node.span = value->node.span,
+                          .kind = TN_WORD_NUMBER,
+                          .value = strtoll(exact, NULL, 10),
+                          .text = exact,
+                          .exact = exact,
+                          .power = field->power};
     *number = (tn_ast_expr){.node.span = value->node.span, .kind = TN_EXPR_NUMBER, .depth = 1, .name = word};
     return number;
 }

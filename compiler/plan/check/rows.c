@@ -77,15 +77,60 @@ static void add_length(tn_check *check, tn_checked_field *field, int64_t length,
             (tn_checked_value){.name = spelling, .spelling = spelling, .measure = "", .span = span, .length = length};
 }
 
-/* Fields have lengths, and this measure has others: a rule can say what is asked of it. */
-static void report_other_unit(tn_check *check, const tn_checked_field *field, const tn_ast_word *measure)
+/* ---- values that are no lengths */
+
+typedef struct said_number {
+    mpq_t number;
+    const char *exact, *name;
+} said_number;
+
+static int compare_numbers(const void *left, const void *right)
 {
-    const tn_checked_name *name = tn_names_get(&check->names, measure->text);
-    const tn_ast_word *using = name && name->rule ? name->rule->ast->using : NULL;
-    tn_diagnostic *d = tn_report(check->diagnostics, E_PLAN_VALUES, measure->node.span,
-                                 "`%s` is no length, and only lengths can be a field's values", measure->text);
-    tn_help(check->diagnostics, d, "ask a rule instead: `rule large%s%s = %s >= 4` and `%s = rule large`",
-            using ? " using " : "", using ? using->text : "", measure->text, field->name);
+    return mpq_cmp(((const said_number *)left)->number, ((const said_number *)right)->number);
+}
+
+/* Each number once, from the least to the greatest. */
+static void add_numbers(tn_checked_field *field, const said_number *said, size_t count, tn_span span)
+{
+    for (size_t i = 0; i < count && field->value_count < TN_VALUES_MAX; i++)
+        if (i == 0 || strcmp(said[i].exact, said[i - 1].exact) != 0)
+            field->values[field->value_count++] = (tn_checked_value){
+                .name = said[i].name, .spelling = said[i].name, .measure = "", .number = said[i].exact, .span = span};
+}
+
+static void report_long(tn_check *check, const tn_checked_schema *schema, const tn_ast_field *field)
+{
+    tn_diagnostic *d = tn_report(check->diagnostics, E_PLAN_VALUES, field->said_by->node.span,
+                                 "some plans of `%s` have a value of `%s` of more than %u characters",
+                                 schema->ast->of->text, field->said_by->text, TN_NAME_MAX);
+    tn_help(check->diagnostics, d, "ask a measure of rounder numbers, or rules that say what matters of it");
+}
+
+/* Counts, areas and shares are values that have an order, each with its number. */
+static bool add_said_numbers(tn_check *check, const tn_checked_schema *schema, tn_checked_field *field, size_t column)
+{
+    const tn_census *census = tn_schema_census(schema);
+    said_number *said = TN_NEW_ARRAY(check->arena, said_number, census->count);
+    if (!said)
+        return false;
+    for (size_t i = 0; i < census->count; i++)
+        if (strlen(census->rows[i].texts[column]) > TN_NAME_MAX) {
+            report_long(check, schema, field->ast);
+            return false;
+        }
+    field->kind = TN_FIELD_CHOICE;
+    field->ordered = field->measured = true;
+    field->power = census->powers[column];
+    for (size_t i = 0; i < census->count; i++) {
+        said[i] = (said_number){.exact = census->rows[i].values[column], .name = census->rows[i].texts[column]};
+        mpq_init(said[i].number);
+        mpq_set_str(said[i].number, said[i].exact, 10);
+    }
+    qsort(said, census->count, sizeof *said, compare_numbers);
+    add_numbers(field, said, census->count, field->ast->said_by->node.span);
+    for (size_t i = 0; i < census->count; i++)
+        mpq_clear(said[i].number);
+    return true;
 }
 
 void tn_check_said_values(tn_check *check, tn_checked_schema *schema, tn_checked_field *field)
@@ -97,8 +142,7 @@ void tn_check_said_values(tn_check *check, tn_checked_schema *schema, tn_checked
     if (!lengths)
         return;
     if (census->powers[column] != 1) {
-        report_other_unit(check, field, ast->said_by);
-        schema->broken = true;
+        schema->broken |= !add_said_numbers(check, schema, field, column);
         return;
     }
     for (size_t i = 0; i < census->count; i++)
@@ -121,9 +165,10 @@ static uint32_t value_of(const tn_checked_field *field, const char *said)
     int64_t length = 0;
     if (field->kind == TN_FIELD_FLAG)
         return strcmp(said, "0") != 0;
-    read_length(said, &length);
+    if (!field->measured)
+        read_length(said, &length);
     for (uint32_t v = 0; v < field->value_count; v++)
-        if (field->values[v].length == length)
+        if (field->measured ? strcmp(field->values[v].number, said) == 0 : field->values[v].length == length)
             return v;
     return 0;
 }

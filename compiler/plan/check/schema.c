@@ -335,9 +335,21 @@ static tn_checked_field *begin_field(tn_check *check, tn_checked_schema *schema,
     return made->values ? made : NULL;
 }
 
-static void end_field(tn_checked_schema *schema)
+/* In sums a name that has an order is its place there, the first 1. */
+static void number_places(tn_check *check, tn_checked_field *field)
 {
-    const tn_checked_field *field = &schema->fields[schema->field_count];
+    for (uint32_t v = 0; v < field->value_count; v++) {
+        char place[16];
+        snprintf(place, sizeof place, "%u", (unsigned)v + 1);
+        field->values[v].number = tn_arena_copy(check->arena, place, strlen(place));
+    }
+}
+
+static void end_field(tn_check *check, tn_checked_schema *schema)
+{
+    tn_checked_field *field = &schema->fields[schema->field_count];
+    if (field->ordered && !field->measured)
+        number_places(check, field);
     schema->value_count += field->value_count;
     if (field->kind == TN_FIELD_LENGTH && schema->length_field == TN_NONE)
         schema->length_field = schema->field_count;
@@ -403,7 +415,7 @@ static void check_field(tn_check *check, tn_checked_schema *schema, const tn_ast
     if (ast->form == TN_FORM_MEASURE)
         tn_check_said_values(check, schema, field);
     check_field_role(check, field);
-    end_field(schema);
+    end_field(check, schema);
 }
 
 /* ---- fields of an older schema */
@@ -472,7 +484,7 @@ static void take_over_field(tn_check *check, tn_checked_schema *schema, const tn
         field->doc = added->doc->text;
     if (added && addition_fits(check, schema, older, added))
         check_values(check, schema, field, added);
-    end_field(schema);
+    end_field(check, schema);
 }
 
 void tn_check_schema(tn_check *check, tn_checked_schema *schema)

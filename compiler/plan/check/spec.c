@@ -5,7 +5,7 @@
  */
 #include <string.h>
 
-#include "compiler/plan/check/check.h"
+#include "compiler/plan/check/amount.h"
 
 /* One item on the way: the field that its alternatives are about, and the values chosen so far. */
 typedef struct tn_item_reader {
@@ -129,7 +129,12 @@ static bool length_field(tn_item_reader *item, const tn_ast_word *word)
         return false;
     tn_diagnostic *d = tn_report(item->check->diagnostics, E_NO_LENGTH_FIELD, word->node.span,
                                  "schema `%s` has no field of lengths", item->schema->name);
-    tn_help(item->check->diagnostics, d, "name the zone whose depth it is");
+    const tn_checked_field *numbers = tn_field_of_numbers(item->schema);
+    if (numbers)
+        tn_help(item->check->diagnostics, d, "a number stands behind the name of its field: `%s %s`", numbers->name,
+                word->text);
+    else
+        tn_help(item->check->diagnostics, d, "name the zone whose depth it is");
     return false;
 }
 
@@ -189,7 +194,8 @@ static bool find_field(tn_item_reader *item)
     if (word->kind == TN_WORD_GROUP)
         return item->field != TN_NONE || field_of_group(item, word->group);
     bool lengths = item->field != TN_NONE && (item->schema->fields[item->field].kind == TN_FIELD_LENGTH ||
-                                              item->schema->fields[item->field].kind == TN_FIELD_ZONE);
+                                              item->schema->fields[item->field].kind == TN_FIELD_ZONE ||
+                                              item->schema->fields[item->field].measured);
     return lengths || length_field(item, word);
 }
 
@@ -339,6 +345,46 @@ static bool mark_names_between(tn_item_reader *item, const tn_ast_word *range)
     return false;
 }
 
+/* Is the value between the two, or, of one, does it compare so with it? */
+static bool number_fits(tn_check *check, const char *number, tn_operator op, const char *low, const char *high)
+{
+    const char *over = tn_amount_apply(check, TN_EXPR_MINUS, number, low);
+    const char *under = high ? tn_amount_apply(check, TN_EXPR_MINUS, number, high) : over;
+    if (!over || !under)
+        return false;
+    int order = tn_amount_is_zero(over) ? 0 : *over == '-' ? -1 : 1;
+    return high ? order >= 0 && (tn_amount_is_zero(under) || *under == '-') : compares(order, op, 0);
+}
+
+/* A constant beside values that a measure says; NULL: reported. */
+static const char *read_number(tn_item_reader *item, const tn_ast_word *word)
+{
+    const tn_checked_field *field = &item->schema->fields[item->field];
+    tn_sum_amount amount = tn_amount_read(item->check, word), both;
+    const tn_sum_amount values = {.value = "0", .power = field->power};
+    if (!amount.value || !tn_same_power(item->check, values, field->ast->name->node.span, amount, word->node.span,
+                                        "compared with", &both))
+        return NULL;
+    return amount.value;
+}
+
+/* [op] number, or a range of them. One that has to be a value of the field, and is not, is an error. */
+static bool read_measured(tn_item_reader *item, tn_operator op, const tn_ast_word *word)
+{
+    const tn_checked_field *field = &item->schema->fields[item->field];
+    bool range = word->kind == TN_WORD_RANGE && op == TN_EQUAL, any = false;
+    const char *low = read_number(item, range ? word->low : word);
+    const char *high = low && range ? read_number(item, word->high) : NULL;
+    if (!low || (range && !high))
+        return false;
+    for (uint32_t v = 0; v < field->value_count; v++)
+        any |= item->found[v] = number_fits(item->check, field->values[v].number, op, low, high);
+    if (any || range || op != TN_EQUAL)
+        return true;
+    tn_report_value(item->check, item->schema, item->field, word);
+    return false;
+}
+
 /* names only: `= double`, `!= double` */
 static bool read_name(tn_item_reader *item, tn_operator op)
 {
@@ -346,6 +392,10 @@ static bool read_name(tn_item_reader *item, tn_operator op)
     bool ordered = item->schema->fields[item->field].ordered;
     if (!word)
         return bad_item(item, item->span, "a value is missing");
+    bool measured = item->schema->fields[item->field].measured && word->kind != TN_WORD_NAME;
+    if (measured && (is_bare(word) || word->kind == TN_WORD_DECIMAL || word->kind == TN_WORD_AREA ||
+                     word->kind == TN_WORD_LENGTH || (word->kind == TN_WORD_RANGE && word->low->kind != TN_WORD_NAME)))
+        return read_measured(item, op, word);
     if (word->kind == TN_WORD_RANGE && op == TN_EQUAL && ordered)
         return mark_names_between(item, word);
     if (op != TN_EQUAL && op != TN_UNEQUAL && !ordered)

@@ -58,9 +58,25 @@ static bool set_length(tn_tray_reader *tray, uint32_t field, const tn_ast_word *
     return false;
 }
 
+/* Of a field that a measure says: the value that is this number; its place, or how many there are. */
+static uint32_t find_number(tn_check *check, const tn_checked_field *field, const tn_ast_word *word)
+{
+    uint32_t v = 0;
+    bool constant = word->kind == TN_WORD_NUMBER || word->kind == TN_WORD_DECIMAL || word->kind == TN_WORD_AREA;
+    tn_sum_amount amount = constant ? tn_amount_read(check, word) : (tn_sum_amount){0};
+    if (!amount.value || (amount.power != field->power && !amount.any))
+        return field->value_count;
+    while (v < field->value_count && strcmp(field->values[v].number, amount.value) != 0)
+        v++;
+    return v;
+}
+
 static bool set_choice(tn_tray_reader *tray, uint32_t field, const tn_ast_word *word)
 {
     const tn_checked_field *f = &tray->schema->fields[field];
+    uint32_t number = f->measured ? find_number(tray->check, f, word) : f->value_count;
+    if (number < f->value_count)
+        return set(tray, field, number, word);
     for (uint32_t v = 0; v < f->value_count; v++)
         if (word->kind == TN_WORD_NAME && strcmp(f->values[v].name, word->text) == 0)
             return set(tray, field, v, word);
@@ -128,7 +144,7 @@ static bool read_named(tn_tray_reader *tray, uint32_t field, const tn_ast_word *
                  value->has_depth ? " " : "", value->has_depth ? value->measure : "");
         return misread(tray, name, "this field has no value here", help);
     }
-    if (word->kind == TN_WORD_NUMBER) {
+    if (word->kind == TN_WORD_NUMBER && !tray->schema->fields[field].measured) {
         tn_report_unit(tray->check, tray->schema, word);
         return false;
     }
@@ -149,8 +165,9 @@ static bool read_name(tn_tray_reader *tray, const tn_ast_word *word)
     bool is_flag = field != TN_NONE && schema->fields[field].kind == TN_FIELD_FLAG;
     bool value_follows = false;
     if (field != TN_NONE && tray->word && !is_flag)
-        value_follows = tray->word->kind != TN_WORD_NAME ? schema->fields[field].kind != TN_FIELD_CHOICE
-                                                         : tn_field_has(&schema->fields[field], tray->word->text);
+        value_follows = tray->word->kind != TN_WORD_NAME
+                            ? schema->fields[field].kind != TN_FIELD_CHOICE || schema->fields[field].measured
+                            : tn_field_has(&schema->fields[field], tray->word->text);
     if (field != TN_NONE && (!is_value || value_follows))
         return read_named(tray, field, word);
     uint32_t owner = tn_value_field(tray->check, schema, word);
@@ -217,7 +234,7 @@ static bool read_field(tn_tray_reader *tray, uint32_t field, const tn_ast_word *
     const tn_checked_field *f = &tray->schema->fields[field];
     if (f->kind == TN_FIELD_FLAG && word->kind == TN_WORD_ABSENT)
         return set(tray, field, 0, word);
-    if (word->kind == TN_WORD_NUMBER) {
+    if (word->kind == TN_WORD_NUMBER && !f->measured) {
         tn_report_unit(tray->check, tray->schema, word);
         return false;
     }

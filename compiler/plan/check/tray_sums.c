@@ -81,7 +81,7 @@ static bool compares_sums(const tn_checked_schema *schema, const tn_ast_alternat
     if (left->kind != TN_WORD_NAME)
         return is_constant_word(left) || left->kind == TN_WORD_GROUP;
     if (right->kind == TN_WORD_NUMBER)
-        return f != TN_NONE && schema->fields[f].ordered;
+        return f != TN_NONE && schema->fields[f].ordered && !schema->fields[f].measured;
     if (right->kind != TN_WORD_NAME || (f != TN_NONE && tn_field_has(&schema->fields[f], right->text)))
         return false;
     bool compared = number || is_figure(schema, left);
@@ -160,9 +160,8 @@ static tn_ast_expr *bound_value(sum_reader *r, const tn_ast_word *word)
         uint32_t v = 0;
         while (strcmp(r->schema->fields[f].values[v].name, word->text) != 0)
             v++;
-        char place[16];
-        snprintf(place, sizeof place, "%u", (unsigned)v + 1);
-        constant->exact = tn_arena_copy(r->check->arena, place, strlen(place));
+        constant->exact = r->schema->fields[f].values[v].number;
+        constant->power = r->schema->fields[f].power;
     } else if (r->made && r->word && r->word->kind == TN_WORD_LENGTH) {
         *constant = *take(r);
         constant->node.next = NULL;
@@ -304,10 +303,10 @@ tn_figure_value tn_figure_compute(const tn_checked_schema *schema, const tn_ast_
     case TN_EXPR_FIGURE:
         if (figure->number)
             return compute_number(schema, figure->number, cases, values, out);
-        mpq_set_si(out,
-                   figure->place ? values[figure->field] + 1
-                                 : schema->fields[figure->field].values[values[figure->field]].length,
-                   1);
+        if (figure->place)
+            mpq_set_str(out, schema->fields[figure->field].values[values[figure->field]].number, 10);
+        else
+            mpq_set_si(out, schema->fields[figure->field].values[values[figure->field]].length, 1);
         return TN_FIGURE_SAYS;
     case TN_EXPR_NEGATIVE: {
         tn_figure_value outcome =

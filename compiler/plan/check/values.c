@@ -278,8 +278,22 @@ static const tn_ast_word *unit_apart(const tn_ast_word *number)
     return NULL;
 }
 
+const tn_checked_field *tn_field_of_numbers(const tn_checked_schema *schema)
+{
+    for (uint32_t f = 0; schema && f < schema->field_count; f++)
+        if (schema->fields[f].measured && schema->fields[f].power == 0)
+            return &schema->fields[f];
+    return NULL;
+}
+
 static void help_unit(tn_check *check, tn_diagnostic *d, const tn_checked_schema *schema, const char *number)
 {
+    const tn_checked_field *numbers = tn_field_of_numbers(schema);
+    if (numbers) {
+        tn_help(check->diagnostics, d, "a number stands behind the name of its field: `%s %s`; a length has a unit",
+                numbers->name, number);
+        return;
+    }
     if (schema && schema->value_count > 0)
         tn_help(check->diagnostics, d, "write a length with its unit, such as `%s%s`", number,
                 is_metric(schema) ? "m" : "'");

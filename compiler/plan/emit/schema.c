@@ -25,6 +25,7 @@ static void emit_field(tn_emit *emit, const tn_checked_field *field)
                                                 .doc = text(emit, value->doc),
                                                 .role = value->role,
                                                 .length = value->length,
+                                                .number = text(emit, field->measured ? value->number : NULL),
                                             });
     }
     tn_builder_add_FIELD(emit->builder, &(tn_field_record){

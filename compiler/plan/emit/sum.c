@@ -7,17 +7,17 @@
 
 /* ---- what a tray counts */
 
-/* The place of the tray's value in its order: from the first on, each picked over what is there so far. A number of a
- * schema is also one of those that are made from it: what its figures ask is of the schema at hand. */
+/* What the tray's value is by its order, a place or a measured number: from the first on, each picked over what is
+ * there so far. A number of a schema is also one of those that are made from it: what its figures ask is of the schema
+ * at hand. */
 static void emit_place(tn_emit *emit, const tn_ast_expr *figure)
 {
     tn_checked_schema *schema = emit->checked->schemas[emit->schema];
-    char place[16];
+    const tn_checked_field *field = &schema->fields[figure->field];
     tn_span span = figure->node.span;
-    tn_emit_op(emit, span, TN_OP_FIGURE, tn_builder_string(emit->builder, "1"), 0);
-    for (uint32_t v = 1; v < schema->fields[figure->field].value_count; v++) {
-        snprintf(place, sizeof place, "%u", (unsigned)v + 1);
-        tn_emit_op(emit, span, TN_OP_FIGURE, tn_builder_string(emit->builder, place), 0);
+    tn_emit_op(emit, span, TN_OP_FIGURE, tn_builder_string(emit->builder, field->values[0].number), 0);
+    for (uint32_t v = 1; v < field->value_count; v++) {
+        tn_emit_op(emit, span, TN_OP_FIGURE, tn_builder_string(emit->builder, field->values[v].number), 0);
         tn_checked_spec *spec = tn_value_spec(emit->arena, schema, figure->field, v, span);
         if (spec)
             tn_emit_op(emit, span, TN_OP_PICK, tn_emit_spec(emit, spec), 0);

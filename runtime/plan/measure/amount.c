@@ -119,7 +119,8 @@ static bool put_decimal(const mpz_t scaled, int decimals, bool apart, tn_buffer 
     return ok;
 }
 
-bool tn_amount_write(tn_amount_unit unit, const mpq_t value, tn_buffer *out)
+/* A decimal if it ends soon, else a fraction; apart: thousands. */
+static bool write_number(tn_amount_unit unit, const mpq_t value, bool apart, tn_buffer *out)
 {
     mpq_t converted;
     mpz_t scaled;
@@ -135,13 +136,24 @@ bool tn_amount_write(tn_amount_unit unit, const mpq_t value, tn_buffer *out)
         mpz_divexact(scaled, scaled, mpq_denref(converted));
     }
     if (decimals >= 0 && (decimals == 0 || tn_decimal_digits(scaled) <= DIGITS))
-        ok = put_decimal(scaled, decimals, true, out);
+        ok = put_decimal(scaled, decimals, apart, out);
     else
         ok = put_rational(converted, out);
     mpq_clear(converted);
     mpz_clear(scaled);
+    return ok;
+}
+
+bool tn_amount_write(tn_amount_unit unit, const mpq_t value, tn_buffer *out)
+{
     const char *name = tn_amount_unit_name(unit);
-    return ok && (!*name || tn_buffer_printf(out, " %s", name));
+    return write_number(unit, value, true, out) && (!*name || tn_buffer_printf(out, " %s", name));
+}
+
+bool tn_amount_write_word(tn_amount_unit unit, const mpq_t value, tn_buffer *out)
+{
+    const char *name = tn_amount_unit_name(unit);
+    return write_number(unit, value, false, out) && tn_buffer_append(out, name, strlen(name));
 }
 
 bool tn_amount_write_about(tn_amount_unit unit, const mpq_t converted, tn_buffer *out)

@@ -27,6 +27,9 @@ bool tn_amount_write_exact(tn_amount_unit unit, const mpq_t value, tn_buffer *ou
 /* The same for people: "1,240 ft2"; a decimal where it ends within 12 significant digits, else a fraction. */
 bool tn_amount_write(tn_amount_unit unit, const mpq_t value, tn_buffer *out);
 
+/* The same as one word, as constants of rules are written: "1240ft2". */
+bool tn_amount_write_word(tn_amount_unit unit, const mpq_t value, tn_buffer *out);
+
 /* Writes a value that is in the unit already with 6 significant digits, its thousands apart: for people. */
 bool tn_amount_write_about(tn_amount_unit unit, const mpq_t converted, tn_buffer *out);
 

@@ -6,6 +6,7 @@
 
 #include "runtime/base/array.h"
 #include "runtime/base/integers.h"
+#include "runtime/number/rational.h"
 #include "runtime/plan/library/library_data.h"
 #include "runtime/plan/measure/bundle.h"
 
@@ -252,13 +253,14 @@ static uint32_t value_for(const tn_standing_plans *p, uint32_t field, const mpq_
     uint32_t first = rows->value_start[field], count = rows->value_start[field + 1] - first, v = 0;
     if (module_of(p)->FIELD_records[rows->record->field_first + field].kind == TN_FIELD_FLAG)
         return mpq_sgn(said) != 0;
-    mpq_t length;
-    mpq_init(length);
+    mpq_t value;
+    mpq_init(value);
     for (bool found = false; v < count && !found; v += !found) {
-        mpq_set_si(length, rows->values[first + v].length, 1);
-        found = mpq_equal(length, said) != 0;
+        const char *number = tn_text(module_of(p), rows->values[first + v].number);
+        mpq_set_si(value, rows->values[first + v].length, 1);
+        found = (!*number || tn_rational_read(number, value)) && mpq_equal(value, said);
     }
-    mpq_clear(length);
+    mpq_clear(value);
     return v;
 }
 
