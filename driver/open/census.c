@@ -194,10 +194,14 @@ static tn_status fill(const counted *c, tn_arena *arena, tn_census *census, tn_e
         row->values = tn_arena_alloc_array(arena, sizeof *row->values, columns + 1);
         row->texts = tn_arena_alloc_array(arena, sizeof *row->texts, columns + 1);
         row->plans = keep(arena, mpz_get_str(NULL, 10, c->table.rows[i].plans));
-        for (size_t k = 0; row->values && row->texts && k < columns; k++) {
+        bool good = row->values && row->texts && row->plans;
+        for (size_t k = 0; good && k < columns; k++) {
             row->values[k] = keep(arena, mpq_get_str(NULL, 10, c->table.rows[i].values[k]));
             row->texts[k] = keep(arena, word_of(c, powers[k], c->table.rows[i].values[k]));
+            good = row->values[k] && row->texts[k];
         }
+        if (!good)
+            return tn_fail_memory(error);
     }
     census->count = c->table.count;
     census->columns = columns;

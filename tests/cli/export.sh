@@ -118,4 +118,19 @@ run :- forall(member(P-Wanted, [[tray('2m', one, sun, 'open:2m')]-[sunny, pruned
 END
 said=$(swipl -q -f "$scratch/rules.pl" -l "$scratch/run.pl" -g run -g halt 2>&1)
 is 'what fetch and prune_plan say otherwise' "$said" ''
+
+# A rule that uses itself twice asks about each stretch in very many ways: what was answered is remembered.
+cat >"$scratch/grown.plan" <<'END'
+schema row { use = a | b }
+rule grown = tray(a) or neighbour(grown, grown)
+library l { trays 1..60  generate grown }
+END
+"$TARTAN" export "$scratch/grown.plan" --prolog -o "$scratch/rules.pl"
+cat >"$scratch/run.pl" <<'END'
+row(0, []) :- !.
+row(N, [tray(a)|Row]) :- M is N - 1, row(M, Row).
+run :- row(40, Row), append(Row, [tray(b)], Odd), plan_of(Odd, W),
+       ( 'grown whole'(W, 0, 40) -> write(yes) ; write(no) ), ( 'grown whole'(W, 0, 41) -> write(yes) ; write(no) ).
+END
+is 'a circle of rules in Prolog' "$(timeout 60 swipl -q -f "$scratch/rules.pl" -l "$scratch/run.pl" -g run -g halt 2>&1)" yesno
 finish

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "compiler/compile.h"
+#include "driver/open/census.h"
 #include "driver/open/files.h"
 #include "driver/open/open.h"
 #include "runtime/base/file.h"
@@ -25,8 +26,10 @@ static inline tn_status compile_text(const char *path, const char *text, size_t 
     tn_stdlib_dirs dirs = {(char **)(uintptr_t)folders->stdlib_dirs, folders->stdlib_dir_count};
     tn_files files;
     tn_files_begin(&files, &dirs);
-    tn_compile_options options = {
-        .resolver = tn_files_resolver(&files), .attachments = tn_file_attachments, .params = folders->params};
+    tn_compile_options options = {.resolver = tn_files_resolver(&files),
+                                  .census = tn_plan_census,
+                                  .attachments = tn_file_attachments,
+                                  .params = folders->params};
     tn_input input = {.text = text, .size = size, .name = path, .identity = realpath(path, identity)};
     tn_status status = tn_compile_text(tn_notation_or_first(path, text, size), &input, &options, compilation);
     tn_files_clear(&files);

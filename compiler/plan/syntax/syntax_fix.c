@@ -128,6 +128,17 @@ static bool line_begins(const tn_parse *parse, const char *word)
     return strncmp(parse->text + begin, word, size) == 0 && !isalnum((unsigned char)parse->text[begin + size]);
 }
 
+/* Does the word stand before the token at hand, on its line? */
+static bool line_has(const tn_parse *parse, const char *word)
+{
+    size_t end = parse->last_span.begin, size = strlen(word);
+    for (size_t at = end; at >= size + 1 && parse->text[at - 1] != '\n'; at--)
+        if (strncmp(parse->text + at - size, word, size) == 0 && isspace((unsigned char)parse->text[at - size - 1]) &&
+            isspace((unsigned char)parse->text[at]))
+            return true;
+    return false;
+}
+
 /* Does the token at hand stand in a clause of bounds, behind this word: `trays 1..`, `total width <=`? */
 static bool in_clause(const tn_parse *parse, const char *word)
 {
@@ -212,6 +223,9 @@ static const char *library_fix(const tn_parse *parse, const char *found, const t
         more |= strcmp(found, joints[i]) == 0;
     if (!more || !tn_expects(e, "`{`") || !line_begins(parse, "library"))
         return NULL;
+    if (e->count == 1 && line_has(parse, "onto"))
+        return "a projected library is one of plans: houses are those of another one, `library NAME from PROJECTED in "
+               "FORM { ... }`";
     if (e->count == 1)
         return "a library has one form: for the other write another `library NAME from PLANS in FORM { ... }`";
     if (tn_expects(e, "`in`") && strcmp(found, "a name") != 0)

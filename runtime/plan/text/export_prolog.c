@@ -398,11 +398,59 @@ static tn_status put_parts(writing *w, const tn_parts *parts, uint32_t function,
     return status;
 }
 
+/* Functions that are called from some function on: those that were met, and those to be looked at of them. */
+typedef struct reaching {
+    bool *met;       /* [functions] */
+    uint32_t *to_go; /* [functions] */
+    uint32_t count;
+} reaching;
+
+static tn_status look_at(const writing *w, uint32_t function, reaching *r, tn_error *error)
+{
+    tn_parts parts = {0};
+    tn_status status = tn_parts_read(w->module, function, &parts, error);
+    for (uint32_t p = 0; status == TN_OK && p < parts.count; p++) {
+        if (parts.parts[p].kind != TN_PART_RULE || r->met[parts.parts[p].function])
+            continue;
+        r->met[parts.parts[p].function] = true;
+        r->to_go[r->count++] = parts.parts[p].function;
+    }
+    tn_parts_clear(&parts);
+    return status;
+}
+
+/* Does a function come to call itself? */
+static tn_status uses_itself(const writing *w, uint32_t function, bool *uses, tn_error *error)
+{
+    size_t functions = w->module->FUNCTION_count;
+    reaching r = {calloc(functions + 1, sizeof *r.met), calloc(functions + 1, sizeof *r.to_go), 0};
+    tn_status status = r.met && r.to_go ? look_at(w, function, &r, error) : tn_fail_memory(error);
+    while (status == TN_OK && r.count > 0 && !r.met[function])
+        status = look_at(w, r.to_go[--r.count], &r, error);
+    *uses = status == TN_OK && r.met[function];
+    free(r.met);
+    free(r.to_go);
+    return status;
+}
+
+/* Prologs that can remember what a predicate has answered do: stretches are asked about again and again. */
+static void put_table(writing *w, uint32_t function)
+{
+    put(w, ":- if(current_op(_, fx, table)).\n:- table(");
+    put_name(w, function, 0);
+    put(w, "/3).\n:- endif.\n");
+}
+
 static tn_status put_function(writing *w, uint32_t function, tn_error *error)
 {
-    tn_parts parts;
-    tn_status status = tn_parts_read(w->module, function, &parts, error);
+    tn_parts parts = {0};
+    bool itself;
     w->written[function] = true;
+    tn_status status = uses_itself(w, function, &itself, error);
+    if (status == TN_OK && itself)
+        put_table(w, function);
+    if (status == TN_OK)
+        status = tn_parts_read(w->module, function, &parts, error);
     if (status == TN_OK)
         status = put_parts(w, &parts, function, error);
     tn_parts_clear(&parts);
