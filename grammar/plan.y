@@ -76,7 +76,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token FORM "`form`" STOREY "`storey`" SPINE "`spine`" WALL "`wall`" PARTITION "`partition`" DECK "`deck`" ROOF "`roof`"
 %token SECTION "`section`" VOID "`void`" NO "`no`" FUNCTION "`function`" AT "`at`" CELL "`cell`"
 %token OPENING "`opening`" WIDE "`wide`" HIGH "`high`" SILL "`sill`" CLEAR "`clear`" PASSAGE "`passage`"
-%token WAY "`way`" HEADROOM "`headroom`"
+%token WAY "`way`" HEADROOM "`headroom`" GUARD "`guard`"
 %token FLIGHT "`flight`" RISE "`rise`" GOING "`going`" TURN "`turn`"
 %token GLAZED "`glazed`" LEAFLESS "`leafless`" NEAR "`near`" SLIDING "`sliding`" MATERIAL "`material`" PRICE "`price`" PER "`per`"
 %token FACE "`face`" BESIDE "`beside`" ALONG "`along`" ACROSS "`across`" UNDER "`under`" OUTSIDE "`outside`"
@@ -786,6 +786,7 @@ form_clause
     | way size                                  { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_WAY, .length = $2}); }
     | way size FOR names                        { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_WAY, .length = $2, .list = $4}); }
     | headroom size                             { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_HEADROOM, .length = $2}); }
+    | guard size                                { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_GUARD, .length = $2}); }
     | allow_word names                          { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_ALLOW, .list = $2}); }
     | material NAME STRING price FOR names material_where
                                                 { $4.name = $2; $4.doc = $3; $4.list = $6; $4.first = $7; $$ = tn_ast_form_clause_new(parse, @$, $4); }
@@ -801,6 +802,7 @@ opening: OPENING                                { yyerrok; };
 flight: FLIGHT                                  { yyerrok; };
 way: WAY                                        { yyerrok; };
 headroom: HEADROOM                              { yyerrok; };
+guard: GUARD                                    { yyerrok; };
 face: FACE                                      { yyerrok; };
 tile: TILE                                      { yyerrok; };
 material: MATERIAL                              { yyerrok; };

@@ -28,7 +28,7 @@ TYPES = {
     "IFCELEMENTQUANTITY": ROOT + "sA", "IFCEXTRUDEDAREASOLID": "NnNR", "IFCFURNITURE": ELEMENT + "e",
     "IFCGEOMETRICREPRESENTATIONCONTEXT": "ssIrNn", "IFCGEOMETRICREPRESENTATIONSUBCONTEXT": "ssDDDDNrEs", "IFCLOCALPLACEMENT": "nN",
     "IFCMATERIAL": "Sss", "IFCMATERIALLAYER": "nResssi", "IFCMATERIALLAYERSET": "Ass", "IFCMATERIALLAYERSETUSAGE": "NEERr", "IFCOPENINGELEMENT": ELEMENT + "e", "IFCPOLYLINE": "A", "IFCPRODUCTDEFINITIONSHAPE": "ssA", "IFCPROJECT": ROOT + "sssan",
-    "IFCQUANTITYAREA": "SsnRs", "IFCQUANTITYVOLUME": "SsnRs", "IFCRECTANGLEPROFILEDEF": "EsnRR", "IFCRELAGGREGATES": ROOT + "NA",
+    "IFCQUANTITYAREA": "SsnRs", "IFCQUANTITYVOLUME": "SsnRs", "IFCRAILING": ELEMENT + "e", "IFCRECTANGLEPROFILEDEF": "EsnRR", "IFCRELAGGREGATES": ROOT + "NA",
     "IFCRELASSOCIATESMATERIAL": ROOT + "AN", "IFCRELCONTAINEDINSPATIALSTRUCTURE": ROOT + "AN", "IFCRELDEFINESBYPROPERTIES": ROOT + "AN",
     "IFCRELFILLSELEMENT": ROOT + "NN", "IFCRELSPACEBOUNDARY": ROOT + "NNnEE", "IFCRELVOIDSELEMENT": ROOT + "NN", "IFCROOF": ELEMENT + "e",
     "IFCSHAPEREPRESENTATION": "NssA", "IFCSITE": SPATIAL + "vvrsn", "IFCSIUNIT": "DEeE", "IFCSLAB": ELEMENT + "e", "IFCSPACE": SPATIAL + "er",
@@ -42,10 +42,10 @@ WRITTEN = {
 }
 # (entity, attribute) -> the values of its enumeration that houses have
 VALUES = {
-    ("IFCWALL", 8): "SOLIDWALL PARTITIONING", ("IFCSLAB", 8): "FLOOR BASESLAB ROOF", ("IFCDOOR", 10): "DOOR", ("IFCWINDOW", 10): "WINDOW",
+    ("IFCWALL", 8): "SOLIDWALL PARTITIONING", ("IFCSLAB", 8): "FLOOR BASESLAB ROOF", ("IFCRAILING", 8): "GUARDRAIL", ("IFCDOOR", 10): "DOOR", ("IFCWINDOW", 10): "WINDOW",
     ("IFCMATERIALLAYERSETUSAGE", 1): "AXIS2 AXIS3", ("IFCMATERIALLAYERSETUSAGE", 2): "POSITIVE NEGATIVE", ("IFCRELSPACEBOUNDARY", 7): "PHYSICAL", ("IFCRELSPACEBOUNDARY", 8): "INTERNAL EXTERNAL", ("IFCSPACE", 8): "ELEMENT",
 }
-ELEMENTS = "IFCWALL IFCCOLUMN IFCSLAB IFCROOF IFCSTAIR IFCFURNITURE IFCDOOR IFCWINDOW".split()
+ELEMENTS = "IFCWALL IFCCOLUMN IFCSLAB IFCROOF IFCSTAIR IFCRAILING IFCFURNITURE IFCDOOR IFCWINDOW".split()
 PRODUCTS = ELEMENTS + ["IFCOPENINGELEMENT", "IFCSPACE", "IFCSITE", "IFCBUILDING", "IFCBUILDINGSTOREY"]
 # attribute -> what it may refer to
 REFERENCES = {
@@ -194,6 +194,7 @@ def compare(made, house):
     check("as many walls", len(of("IFCWALL")) == len(walls))
     check("as many posts", len(of("IFCCOLUMN")) == kinds["post"])
     check("as many slabs", len(of("IFCSLAB")) == kinds["deck"] + kinds["roofdeck"])
+    check("as many guards", len(of("IFCRAILING")) == kinds["guard"])
     check("as many things", len(of("IFCFURNITURE")) == kinds["item"])
     check("as many roofs", len(of("IFCROOF")) == len(house["roofs"]))
     check("as many openings", len(of("IFCOPENINGELEMENT")) == len(openings))
@@ -202,7 +203,7 @@ def compare(made, house):
     check("as many rooms", len(of("IFCSPACE")) == len(house["rooms"]))
     solid = sum(volume_of(made, n) for n in of("IFCWALL")) - sum(volume_of(made, n) for n in of("IFCOPENINGELEMENT"))
     check("walls less openings", solid == sum(box(s) for s in house["solids"] if s["kind"] in ("outside", "party", "partition")))
-    rest = sum(volume_of(made, n) for name in ("IFCCOLUMN", "IFCSLAB", "IFCFURNITURE", "IFCSTAIR") for n in of(name))
+    rest = sum(volume_of(made, n) for name in ("IFCCOLUMN", "IFCSLAB", "IFCFURNITURE", "IFCSTAIR", "IFCRAILING") for n in of(name))
     check("other boxes", rest == sum(box(s) for s in house["solids"] if s["kind"] not in ("outside", "party", "partition")))
     materials = [spelt(made[n][1][0]) for n in of("IFCMATERIAL")]
     check("each material once", len(materials) == len(set(materials)))
@@ -454,9 +455,9 @@ def slope(rise, way):
 
 def check_parts(path, house):
     """The table of parts, worked out again from the boxes and the lines of the roofs; money to the cent."""
-    kind_of = {"outside": "wall", "party": "party", "partition": "partition", "post": "post", "deck": "deck", "roofdeck": "deck"}
+    kind_of = {"outside": "wall", "party": "party", "partition": "partition", "post": "post", "deck": "deck", "roofdeck": "deck", "guard": "guard"}
     area, volume, number = Counter(), Counter(), Counter()
-    walls = set()
+    walls, guards = set(), set()
     for s in house["solids"]:
         part = house["faces"][s["of"]]["kind"] if s["kind"] == "flight" else kind_of.get(s["kind"]) or s["name"]
         x, y, z = (s["box"][i + 1] - s["box"][i] for i in (0, 2, 4))
@@ -474,7 +475,8 @@ def check_parts(path, house):
             walls.add(s["of"])
         else:
             area[part] += x * y if s["kind"] in ("deck", "roofdeck", "item", "flight") else max(x, y) * z
-            number[part] += s["kind"] != "flight"
+            number[part] += s["kind"] != "flight" and not (s["kind"] == "guard" and s["of"] in guards)
+            guards |= {s["of"]} if s["kind"] == "guard" else set()
         volume[part] += 0 if "layers" in s else x * y * z
     for r in house["roofs"]:
         line, wide = [(F(y), F(z)) for y, z in r["profile"]], length_of_roof(r)

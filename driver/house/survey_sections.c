@@ -44,6 +44,11 @@ static bool is_layered(const tn_survey *s, uint32_t part)
     return layers && tn_form_layers(&s->form, kinds[part]) < s->form.layers_end[kinds[part]];
 }
 
+static bool is_missing_guard(const tn_survey *s, uint32_t part)
+{
+    return part == tn_form_guard_part(&s->form) && s->form.record->guard == 0;
+}
+
 /* Which materials the section of the house has. */
 static void see_materials(const tn_survey *s, section_use *seen)
 {
@@ -54,7 +59,7 @@ static void see_materials(const tn_survey *s, section_use *seen)
         for (uint32_t p = 0; seen->holds[i] && !seen->used[i] && p < material->part_count; p++) {
             uint32_t part = part_of(s, material, p);
             bool there = (part != TN_OF_PARTY || tn_survey_names(s, TN_FACE_PARTY)) && !is_leafless(s, part) &&
-                         !is_layered(s, part);
+                         !is_layered(s, part) && !is_missing_guard(s, part);
             seen->used[i] = there && tn_part_material(&s->house, part) == s->form.record->material_first + i;
         }
     }
@@ -126,13 +131,15 @@ static void warn_materials(const tn_survey *s, const section_use *seen)
         bool party =
             material->part_count == 1 && part_of(s, material, 0) == TN_OF_PARTY && !tn_survey_names(s, TN_FACE_PARTY);
         bool leafless = material->part_count == 1 && is_leafless(s, part_of(s, material, 0)),
-             layered = is_layered(s, part_of(s, material, 0));
+             layered = is_layered(s, part_of(s, material, 0)),
+             guard = material->part_count == 1 && is_missing_guard(s, part_of(s, material, 0));
         for (uint32_t p = 1; p < material->part_count; p++)
             layered = layered && is_layered(s, part_of(s, material, p));
         tn_diagnostic *d = tn_report(tn_survey_list(s), W_MATERIAL_FOR_NOTHING, TN_SURVEY_SPAN(material),
                                      "nothing is ever made of `%s`", tn_text(s->form.module, material->name));
         tn_help(tn_survey_list(s), d,
                 party            ? "no line of faces has the kind `party`"
+                : guard          ? "guards stand only in a form that has `way`"
                 : leafless       ? "the opening is `leafless`: nothing stands in it"
                 : layered        ? "such parts consist of layers: a material is for one of these, by its name"
                 : seen->holds[i] ? "where it is meant for, lines before it name all of its parts"

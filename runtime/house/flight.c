@@ -222,7 +222,7 @@ static void stand_second(tn_flight *to, const tn_opening_record *flight, tn_rect
 tn_status tn_flight_stand(const tn_house *house, const tn_face *face, tn_flight *to, tn_error *error)
 {
     const tn_opening_record *flight = tn_form_flight(house->form, face->kind);
-    *to = (tn_flight){0};
+    *to = (tn_flight){.face = (uint32_t)(face - house->faces)};
     if (flight && tn_form_asks_ways(house->form))
         return tn_stack_flight(house, face, to, error);
     tn_house_side side = flight ? side_of(house, face, flight) : TN_HOUSE_ANY_SIDE;
@@ -251,6 +251,30 @@ tn_status tn_flight_stand(const tn_house *house, const tn_face *face, tn_flight 
 void tn_flight_clear(tn_flight *flight)
 {
     free(flight->holes);
+    free(flight->drops);
     free(flight->treads);
     *flight = (tn_flight){0};
+}
+
+tn_status tn_flights_stand(const tn_house *house, tn_flights *flights, tn_error *error)
+{
+    tn_status status = TN_OK;
+    size_t count = 0;
+    for (size_t i = 0; i < house->face_count; i++)
+        count += house->faces[i].relation == TN_FACE_UNDER && tn_form_flight(house->form, house->faces[i].kind);
+    *flights = (tn_flights){.items = calloc(count + 1, sizeof *flights->items)};
+    if (!flights->items)
+        return tn_fail_memory(error);
+    for (size_t i = 0; status == TN_OK && i < house->face_count; i++)
+        if (house->faces[i].relation == TN_FACE_UNDER && tn_form_flight(house->form, house->faces[i].kind))
+            status = tn_flight_stand(house, &house->faces[i], &flights->items[flights->count++], error);
+    return status;
+}
+
+void tn_flights_clear(tn_flights *flights)
+{
+    for (size_t i = 0; i < flights->count; i++)
+        tn_flight_clear(&flights->items[i]);
+    free(flights->items);
+    *flights = (tn_flights){0};
 }

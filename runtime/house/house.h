@@ -329,12 +329,16 @@ static inline int64_t tn_opening_needs(const tn_house_form *form, const tn_openi
 
 #define TN_FLIGHT_STEPS_MAX 1000u
 
-/* A flight of stairs as it stands, from one floor to the next. holes: what it takes of the floor above. treads: by
- * height, with landings among them. path: how one walks up it. foot, head: if the form asks for ways, where one stands
- * before it and behind it. Owns its arrays: clear it in any case. */
+/* A flight of stairs as it stands, from one floor to the next. face: it is in; holes: what it takes of the floor above.
+ * treads: by height, with landings among them. path: how one walks up it. If the form asks for ways: foot, head: where
+ * one stands before it and behind it; drops: what of its holes one may fall far into. Owns its arrays: clear it in any
+ * case. */
 typedef struct tn_flight {
+    uint32_t face;
     tn_rectangle *holes;
     size_t hole_count;
+    tn_rectangle *drops;
+    size_t drop_count;
     tn_rectangle foot, head;
     tn_box *treads; /* z from the lower floor */
     size_t tread_count;
@@ -360,6 +364,16 @@ bool tn_flight_fits(const tn_house *house, const tn_face *face, const tn_opening
  * asks for ways, in the first place with which all cells of its stack fit. */
 tn_status tn_flight_stand(const tn_house *house, const tn_face *face, tn_flight *flight, tn_error *error);
 void tn_flight_clear(tn_flight *flight);
+
+/* All flights of a house, by their faces. Owns them. */
+typedef struct tn_flights {
+    tn_flight *items;
+    size_t count;
+} tn_flights;
+
+/* Clear it in any case. TN_MEMORY. */
+tn_status tn_flights_stand(const tn_house *house, tn_flights *flights, tn_error *error);
+void tn_flights_clear(tn_flights *flights);
 
 /* ---- rooms.c */
 

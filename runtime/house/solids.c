@@ -1,4 +1,5 @@
-/* Builds the solids of a house: posts and walls with their openings, decks, roofs, and what stands in the rooms. */
+/* Builds the solids of a house: posts and walls with their openings, decks, roofs, guards, and what stands in the
+ * rooms. */
 #include "runtime/house/solids.h"
 #include "runtime/base/array.h"
 
@@ -30,7 +31,7 @@ double tn_fraction_value(tn_fraction fraction)
 const char *tn_solid_kind_text(tn_solid_kind kind)
 {
     static const char *const words[] = {"outside", "party", "partition", "post", "deck",  "roofdeck",
-                                        "item",    "roof",  "pane",      "leaf", "flight"};
+                                        "item",    "roof",  "pane",      "leaf", "flight", "guard"};
     return words[kind];
 }
 
@@ -154,48 +155,40 @@ static bool has_hole(const tn_house *house, uint32_t cell)
 }
 
 /* Flights below a storey leave holes in its floor. */
-static tn_status find_holes(const tn_house *house, uint32_t storey, tn_rectangles *holes, tn_error *error)
+static tn_status find_holes(const tn_house *house, uint32_t storey, const tn_flights *flights, tn_rectangles *holes,
+                            tn_error *error)
 {
     tn_status status = TN_OK;
-    for (size_t i = 0; status == TN_OK && i < house->face_count; i++) {
-        const tn_face *face = &house->faces[i];
-        if (face->relation != TN_FACE_UNDER || face->storey + 1 != storey || !tn_form_flight(house->form, face->kind))
+    for (size_t i = 0; i < flights->count; i++) {
+        const tn_flight *flight = &flights->items[i];
+        if (house->faces[flight->face].storey + 1 != storey)
             continue;
-        tn_flight flight;
-        status = tn_flight_stand(house, face, &flight, error);
-        for (size_t h = 0; status == TN_OK && h < flight.hole_count; h++)
-            status = tn_rectangles_add(holes, flight.holes[h], error);
-        tn_flight_clear(&flight);
+        for (size_t h = 0; status == TN_OK && h < flight->hole_count; h++)
+            status = tn_rectangles_add(holes, flight->holes[h], error);
     }
     return status;
 }
 
-static tn_status put_flights(const tn_house *house, tn_solids *solids, tn_error *error)
+/* Posts may stand in its way, where thicker walls end than those around it. foot: of its storey. */
+static tn_status put_step(const tn_house *house, const tn_flight *flight, const tn_box *step, const tn_rectangles *foot,
+                          tn_solids *solids, tn_error *error)
 {
-    tn_status status = TN_OK;
-    for (uint32_t i = 0; status == TN_OK && i < house->face_count; i++) {
-        if (house->faces[i].relation != TN_FACE_UNDER || !tn_form_flight(house->form, house->faces[i].kind))
-            continue;
-        tn_flight flight;
-        status = tn_flight_stand(house, &house->faces[i], &flight, error);
-        int64_t floor = house->form->level[house->faces[i].storey];
-        for (size_t t = 0; status == TN_OK && t < flight.tread_count; t++) {
-            tn_solid solid = {.kind = TN_SOLID_FLIGHT, .of = i, .at = flight.treads[t]};
-            solid.at.z0 += floor;
-            solid.at.z1 += floor;
-            status = tn_solids_add(solids, solid, error);
-        }
-        tn_flight_clear(&flight);
-    }
+    int64_t floor = house->form->level[house->faces[flight->face].storey];
+    tn_rectangle at = {step->x0, step->x1, step->y0, step->y1};
+    tn_rectangles pieces = {0};
+    tn_status status = tn_region_cut(&(tn_rectangles){&at, 1, 1}, foot, &pieces, error);
+    for (size_t i = 0; status == TN_OK && i < pieces.count; i++)
+        status = put(solids, TN_SOLID_FLIGHT, flight->face, pieces.items[i], floor + step->z0, floor + step->z1, error);
+    free(pieces.items);
     return status;
 }
 
 /* The deck below a storey's floor; its rectangles are kept for the roof decks. */
-static tn_status put_deck(const tn_house *house, uint32_t storey, const tn_rectangles *foot, tn_rectangles *deck,
-                          tn_solids *solids, tn_error *error)
+static tn_status put_deck(const tn_house *house, uint32_t storey, const tn_flights *flights, const tn_rectangles *foot,
+                          tn_rectangles *deck, tn_solids *solids, tn_error *error)
 {
     tn_rectangles floors = {0}, holes = {0};
-    tn_status status = find_holes(house, storey, &holes, error);
+    tn_status status = find_holes(house, storey, flights, &holes, error);
     for (uint32_t i = 0; status == TN_OK && i < house->cell_count; i++)
         if (house->cells[i].storey == storey && !has_hole(house, i))
             status = tn_rectangles_add(&floors, tn_cell_grown(house, &house->cells[i]), error);
@@ -231,8 +224,21 @@ static tn_status put_items(const tn_house *house, uint32_t index, tn_solids *sol
     return status;
 }
 
-/* Everything but flights. */
-static tn_status put_building(const tn_house *house, bool items, tn_solids *solids, tn_error *error)
+static tn_status put_stairs(const tn_house *house, const tn_rectangles *foot, const tn_flights *flights,
+                            tn_solids *solids, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (size_t i = 0; i < flights->count; i++) {
+        const tn_flight *flight = &flights->items[i];
+        const tn_rectangles *posts = &foot[house->faces[flight->face].storey];
+        for (size_t t = 0; status == TN_OK && t < flight->tread_count; t++)
+            status = put_step(house, flight, &flight->treads[t], posts, solids, error);
+    }
+    return status == TN_OK ? tn_house_guards(house, foot, flights, solids, error) : status;
+}
+
+static tn_status put_building(const tn_house *house, bool items, const tn_flights *flights, tn_solids *solids,
+                              tn_error *error)
 {
     uint32_t storeys = house->form->record->storey_count;
     tn_rectangles foot[TN_STOREYS_MAX + 1] = {{0}}, decks[TN_STOREYS_MAX + 1] = {{0}};
@@ -240,11 +246,13 @@ static tn_status put_building(const tn_house *house, bool items, tn_solids *soli
     for (uint32_t k = 0; status == TN_OK && k < storeys; k++)
         status = put_walls(house, k, &foot[k], solids, error);
     for (uint32_t k = 0; status == TN_OK && k <= storeys; k++)
-        status = put_deck(house, k, &foot[k], &decks[k], solids, error);
+        status = put_deck(house, k, flights, &foot[k], &decks[k], solids, error);
     if (status == TN_OK)
         status = tn_house_roofs(house, decks, foot, solids, error);
     for (uint32_t i = 0; status == TN_OK && items && i < house->cell_count; i++)
         status = put_items(house, i, solids, error);
+    if (status == TN_OK)
+        status = put_stairs(house, foot, flights, solids, error);
     for (uint32_t k = 0; k <= storeys; k++) {
         free(foot[k].items);
         free(decks[k].items);
@@ -254,9 +262,13 @@ static tn_status put_building(const tn_house *house, bool items, tn_solids *soli
 
 static tn_status put_all(const tn_house *house, bool items, tn_solids *solids, tn_error *error)
 {
+    tn_flights flights;
     *solids = (tn_solids){0};
-    tn_status status = put_building(house, items, solids, error);
-    return status == TN_OK ? put_flights(house, solids, error) : status;
+    tn_status status = tn_flights_stand(house, &flights, error);
+    if (status == TN_OK)
+        status = put_building(house, items, &flights, solids, error);
+    tn_flights_clear(&flights);
+    return status;
 }
 
 tn_status tn_house_solids(const tn_house *house, tn_solids *solids, tn_error *error)

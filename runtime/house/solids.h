@@ -30,13 +30,14 @@ typedef enum tn_solid_kind {
     TN_SOLID_PANE,   /* of windows: runtime/house/model/model.h adds them and leaves */
     TN_SOLID_LEAF,   /* of doors */
     TN_SOLID_FLIGHT, /* a step or landing */
+    TN_SOLID_GUARD,
     TN_SOLID_COUNT
 } tn_solid_kind;
 
 const char *tn_solid_kind_text(tn_solid_kind kind);
 
-/* of: the face of a wall or flight, the cell of a roof deck or an item, the storey of a deck or post. item: a TILE_BOX
- * record; of a post, the face of the wall as which it is cut into layers, or TN_NO_FACE. */
+/* of: the face of a wall, flight or guard (at a hole, of the flight), the cell of a roof deck or an item, the storey of a
+ * deck or post. item: a TILE_BOX record; of a post, the face of the wall as which it is cut into layers, or TN_NO_FACE. */
 #define TN_NO_FACE UINT32_MAX
 typedef struct tn_solid {
     tn_solid_kind kind;
@@ -73,6 +74,11 @@ tn_status tn_house_solids(const tn_house *house, tn_solids *solids, tn_error *er
 /* The same without what stands in the rooms. */
 tn_status tn_house_shell(const tn_house *house, tn_solids *solids, tn_error *error);
 void tn_solids_clear(tn_solids *solids);
+
+/* What fills an opening: a leaf 1 3/4" thick where one walks through, otherwise a pane of 1"; in the middle of its
+ * wall. */
+#define TN_LEAF_NM INT64_C(44450000)
+#define TN_PANE_NM INT64_C(25400000)
 
 /* ---- region.c: rectangles */
 
@@ -112,6 +118,16 @@ tn_box tn_layer_box(const tn_layering *layers, uint32_t layer, const tn_box *box
 /* The face of the wall as which a post is cut: the thicker of those that end there; of equal ones the one along x; of
  * several the first. TN_NO_FACE: no wall is as thick as the post. */
 uint32_t tn_post_wall(const tn_house *house, uint32_t storey, const tn_post *post);
+
+/* ---- guards.c */
+
+/* The storey that a guard stands in. */
+uint32_t tn_guard_storey(const tn_house *house, uint32_t face);
+
+/* Puts the guards of a house, if it has some: clear of posts, walls and flights. foot: [storey] the rectangles on which
+ * walls stand. */
+tn_status tn_house_guards(const tn_house *house, const tn_rectangles *foot, const tn_flights *flights,
+                          tn_solids *solids, tn_error *error);
 
 /* ---- roof.c: decks, foot: [storey] the rectangles of decks, and those on which walls stand */
 tn_status tn_house_roofs(const tn_house *house, const tn_rectangles *decks, const tn_rectangles *foot,

@@ -272,9 +272,12 @@ static bool place_at(tn_stack *k, size_t flight, size_t number, tn_flight_place 
 
 /* ---- what a flight is to its two cells */
 
-typedef enum tn_step_part { ALL_STEPS, STEPS_IN_WAY, STEPS_IN_HOLE } tn_step_part;
+typedef enum tn_step_part { ALL_STEPS, STEPS_IN_WAY, STEPS_IN_HOLE, STEPS_BELOW_DROP } tn_step_part;
 
-/* Is there no headroom below the treads, for who walks under them; or on them, under the deck above? */
+#define DROP_NM INT64_C(600000000) /* from so high nobody falls without a guard */
+
+/* Is there no headroom below the treads, for who walks under them; or on them, under the deck above; and does one fall
+ * far from the floor above onto them? */
 static bool has_part(const tn_stack *k, size_t flight, const tn_flight_shape *s, const tn_step_box *box,
                      tn_step_part part)
 {
@@ -282,7 +285,9 @@ static bool has_part(const tn_stack *k, size_t flight, const tn_flight_shape *s,
             headroom = k->house->form->record->headroom;
     if (part == STEPS_IN_WAY)
         return box->tread <= 2 || (box->tread - 2) * height < headroom * s->risers;
-    return part == ALL_STEPS || (height - deck - headroom) * s->risers < box->tread * height;
+    bool hole = (height - deck - headroom) * s->risers < box->tread * height,
+         drop = (s->risers - box->tread) * height > DROP_NM * s->risers;
+    return part == ALL_STEPS || (hole && (part == STEPS_IN_HOLE || drop));
 }
 
 /* Adds a rectangle to the last one if both together are one. */
@@ -480,12 +485,21 @@ tn_status tn_stack_fits(const tn_house *house, uint32_t lowest, bool *fits, cons
 
 /* ---- a flight that stands */
 
+static tn_status take_steps(const tn_stack *k, size_t flight, const tn_flight_shape *s, tn_step_part part,
+                            tn_rectangle **to, size_t *count, tn_error *error)
+{
+    tn_rectangles steps = {0};
+    tn_status status = add_steps(k, flight, s, &k->places[flight], part, &steps, error);
+    *to = steps.items;
+    *count = steps.count;
+    return status;
+}
+
 static tn_status stand(tn_stack *k, size_t flight, tn_flight *to, tn_error *error)
 {
     tn_flight_shape s;
     const tn_flight_place *p = &k->places[flight];
     tn_rectangle in = common_of(k, flight);
-    tn_rectangles hole = {0};
     int64_t height = height_of(k, flight), room = runs_in_x(p->side) ? in.y1 - in.y0 : in.x1 - in.x0;
     find_shape(record_of(k, flight), height, room - p->at, k->boxes, &s);
     to->treads = malloc((s.count + 1) * sizeof *to->treads);
@@ -505,10 +519,8 @@ static tn_status stand(tn_stack *k, size_t flight, tn_flight *to, tn_error *erro
     to->path_count = s.path_count;
     to->foot = put(&s, p, &in, s.foot);
     to->head = put(&s, p, &in, s.head);
-    tn_status status = add_steps(k, flight, &s, p, STEPS_IN_HOLE, &hole, error);
-    to->holes = hole.items;
-    to->hole_count = hole.count;
-    return status;
+    tn_status status = take_steps(k, flight, &s, STEPS_IN_HOLE, &to->holes, &to->hole_count, error);
+    return status == TN_OK ? take_steps(k, flight, &s, STEPS_BELOW_DROP, &to->drops, &to->drop_count, error) : status;
 }
 
 tn_status tn_stack_flight(const tn_house *house, const tn_face *face, tn_flight *flight, tn_error *error)
@@ -516,7 +528,7 @@ tn_status tn_stack_flight(const tn_house *house, const tn_face *face, tn_flight 
     tn_stack k;
     uint32_t lowest = face->first;
     bool placed = false;
-    *flight = (tn_flight){0};
+    *flight = (tn_flight){.face = (uint32_t)(face - house->faces)};
     for (const tn_face *below = tn_flight_below(house, lowest); below; below = tn_flight_below(house, lowest))
         lowest = below->first;
     tn_status status = place_all(house, lowest, &k, &placed, error);

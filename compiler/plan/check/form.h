@@ -118,8 +118,8 @@ typedef struct tn_checked_form {
     tn_checked_tile *tiles;
     tn_checked_material *materials;
     tn_checked_way *ways;  /* [functions] of each; of those that lines name: ast */
-    int64_t way, headroom; /* 0: nothing is asked about ways */
-    const tn_ast_form_clause *way_ast, *headroom_ast;
+    int64_t way, headroom, guard; /* 0: nothing is asked about ways */
+    const tn_ast_form_clause *way_ast, *headroom_ast, *guard_ast;
     uint32_t index, storey_first, rule_first, shape_first; /* emitted: of its records */
     tn_ast_list allow;                                     /* tn_ast_word: warnings that it does not want */
     uint32_t storey_count, choice_count, rule_count, function_count, opening_count, face_count, tile_count;
@@ -186,7 +186,7 @@ bool tn_form_kind_belongs(const tn_checked_form *form, tn_face_relation relation
 
 /* The kind of a name; TN_NONE: reported, with those that can be in such a face (TN_FACE_RELATION_COUNT: any). */
 uint32_t tn_form_kind(tn_check *check, const tn_checked_form *form, tn_face_relation relation, const tn_ast_word *word);
-/* The lines `way` and `headroom`, once openings and flights are known. */
+/* The lines `way`, `headroom` and `guard`, once openings and flights are known. */
 void tn_check_ways(tn_check *check, tn_checked_form *form);
 void tn_check_tile(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast);
 

@@ -267,26 +267,33 @@ static void read_for(tn_check *check, tn_checked_form *form, const tn_ast_form_c
     }
 }
 
+/* A line that a form has once. */
+static void read_once(tn_check *check, const tn_ast_form_clause *clause, const char *what,
+                      const tn_ast_form_clause **ast, int64_t *length)
+{
+    if (*ast) {
+        tn_form_twice(check, &clause->node.span, &(*ast)->node.span, what, "");
+        return;
+    }
+    *ast = clause;
+    *length = read_length(check, clause, what, clause->part == TN_PART_WAY);
+}
+
 static void read_ways(tn_check *check, tn_checked_form *form)
 {
     for (TN_EACH(const tn_ast_form_clause, clause, form->ast->clauses)) {
-        if (clause->part == TN_PART_WAY && clause->list.count > 0) {
+        if (clause->part == TN_PART_WAY && clause->list.count > 0)
             read_for(check, form, clause);
-        } else if (clause->part == TN_PART_WAY && form->way_ast) {
-            tn_form_twice(check, &clause->node.span, &form->way_ast->node.span, "way", "");
-        } else if (clause->part == TN_PART_WAY) {
-            form->way_ast = clause;
-            form->way = read_length(check, clause, "way", true);
-        } else if (clause->part == TN_PART_HEADROOM && form->headroom_ast) {
-            tn_form_twice(check, &clause->node.span, &form->headroom_ast->node.span, "headroom", "");
-        } else if (clause->part == TN_PART_HEADROOM) {
-            form->headroom_ast = clause;
-            form->headroom = read_length(check, clause, "headroom", false);
-        }
+        else if (clause->part == TN_PART_WAY)
+            read_once(check, clause, "way", &form->way_ast, &form->way);
+        else if (clause->part == TN_PART_HEADROOM)
+            read_once(check, clause, "headroom", &form->headroom_ast, &form->headroom);
+        else if (clause->part == TN_PART_GUARD)
+            read_once(check, clause, "guard", &form->guard_ast, &form->guard);
     }
 }
 
-/* What is not said: a door of 800 mm, or of 2'8", and a person of 2 m, or of 6'8". */
+/* What is not said: a door of 800 mm, or of 2'8", a person of 2 m, or of 6'8", and guards of 1 m, or of 3'. */
 static void fill_in(tn_checked_form *form)
 {
     bool feet = form->storey_count > 0 && tn_length_style_of(form->storeys[0].ast->length->text) == TN_STYLE_FEET;
@@ -294,6 +301,8 @@ static void fill_in(tn_checked_form *form)
         form->way = feet ? 32 * TN_INCH_NM : INT64_C(800000000);
     if (form->headroom == 0)
         form->headroom = feet ? 80 * TN_INCH_NM : INT64_C(2000000000);
+    if (form->guard == 0)
+        form->guard = feet ? 36 * TN_INCH_NM : INT64_C(1000000000);
 }
 
 /* ---- what cannot be there with it */
@@ -408,17 +417,24 @@ static void check_stairs(tn_check *check, const tn_checked_form *form)
         }
 }
 
+/* Lines about people in a form that asks nothing about them. */
+static void check_idle(tn_check *check, const tn_checked_form *form, const tn_ast_form_clause *ast, const char *what)
+{
+    if (!ast)
+        return;
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_BAD_WAY, ast->node.span, "`%s` without `way` asks for nothing", what);
+    tn_help(check->diagnostics, d, "add a line such as `way %s`", tn_form_in_unit(form, "2'8\"", "800mm"));
+}
+
 void tn_check_ways(tn_check *check, tn_checked_form *form)
 {
     read_ways(check, form);
     const tn_ast_form_clause *any = form->way_ast ? form->way_ast : find(form, TN_PART_WAY, true);
-    if (!any && form->headroom_ast) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_WAY, form->headroom_ast->node.span,
-                                     "`headroom` without `way` asks for nothing");
-        tn_help(check->diagnostics, d, "add a line such as `way %s`", tn_form_in_unit(form, "2'8\"", "800mm"));
-    }
     if (!any) {
-        form->headroom = 0;
+        check_idle(check, form, form->headroom_ast, "headroom");
+        check_idle(check, form, form->guard_ast, "guard");
+        form->headroom = form->guard = 0;
         return;
     }
     fill_in(form);

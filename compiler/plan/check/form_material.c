@@ -90,6 +90,14 @@ uint32_t tn_form_item_named(const tn_checked_form *form, const char *name)
     return TN_NONE;
 }
 
+static uint32_t count_boxes(const tn_checked_form *form)
+{
+    uint32_t boxes = 0;
+    for (uint32_t t = 0; t < form->tile_count; t++)
+        boxes += form->tiles[t].box_count;
+    return boxes;
+}
+
 uint32_t tn_form_part_named(const tn_checked_form *form, const char *name)
 {
     for (uint32_t i = 0; i < TN_OF_COUNT; i++)
@@ -101,16 +109,19 @@ uint32_t tn_form_part_named(const tn_checked_form *form, const char *name)
     uint32_t opening = tn_form_opening_named(form, name);
     if (opening != TN_NONE)
         return openings + opening;
-    uint32_t item = tn_form_item_named(form, name);
-    return item == TN_NONE ? TN_NONE : openings + form->opening_count + item;
+    uint32_t item = tn_form_item_named(form, name), items = openings + form->opening_count;
+    if (item == TN_NONE && strcmp(name, "guard") == 0)
+        return items + count_boxes(form);
+    return item == TN_NONE ? TN_NONE : items + item;
 }
 
 static void unknown_part(tn_check *check, const tn_checked_form *form, const tn_ast_word *word)
 {
-    const char *names[TN_OF_COUNT + TN_LAYERS_MAX + TN_OPENINGS_MAX + 64];
+    const char *names[TN_OF_COUNT + 1 + TN_LAYERS_MAX + TN_OPENINGS_MAX + 64];
     size_t count = 0, room = sizeof names / sizeof *names;
     for (; count < TN_OF_COUNT; count++)
         names[count] = tn_names_OF[count];
+    names[count++] = "guard";
     for (uint32_t i = 0; i < form->layer_count; i++)
         names[count++] = form->layers[i].ast->name->text;
     for (uint32_t i = 0; i < form->opening_count; i++)

@@ -281,6 +281,7 @@ static void emit_form(tn_emit *emit, tn_checked_form *form)
                                                          .headroom = form->headroom,
                                                          .layer_first = counts[7],
                                                          .layer_count = form->layer_count,
+                                                         .guard = form->guard,
                                                          PLACE(form->ast->top.node.span)});
 }
 

@@ -25,6 +25,7 @@ typedef enum tn_form_part {
     TN_PART_MATERIAL,
     TN_PART_WAY,
     TN_PART_HEADROOM,
+    TN_PART_GUARD,
     TN_PART_ALLOW
 } tn_form_part;
 

@@ -32,6 +32,7 @@ static const struct {
     {"opening", "opening door wide 2'8\" high 6'8\" passage", "opening door wide 800mm high 2m passage"},
     {"way", "way 2'8\"", "way 800mm"},
     {"headroom", "headroom 6'8\"", "headroom 2m"},
+    {"guard", "guard 3'", "guard 1m"},
     {"allow", "allow W204", NULL},
     {"flight", "flight stairs wide 3' rise 6\"..7 3/4\" going 10\"",
      "flight stairs wide 900mm rise 150mm..195mm going 250mm"},

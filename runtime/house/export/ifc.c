@@ -219,6 +219,8 @@ static uint32_t storey_of(const tn_ifc *ifc, const tn_solid *s)
     case TN_SOLID_LEAF:
     case TN_SOLID_FLIGHT:
         return ifc->house->faces[s->of].storey;
+    case TN_SOLID_GUARD:
+        return tn_guard_storey(ifc->house, s->of);
     case TN_SOLID_ITEM:
     case TN_SOLID_ROOFDECK:
         return ifc->house->cells[s->of].storey;
@@ -422,6 +424,16 @@ static void put_wall(tn_ifc *ifc, size_t first, tn_stepfile_list *list)
 
 /* ---- other boxes */
 
+static void put_guard(tn_ifc *ifc, const tn_solid *s, unsigned number, tn_stepfile_list *list)
+{
+    tn_stepfile *step = &ifc->step;
+    unsigned where = place(ifc, &s->at), body = shape(ifc, &s->at);
+    unsigned guard = tn_stepfile_add(step, "IFCRAILING('%s',$,'%s',$,$,#%u,#%u,$,.GUARDRAIL.)",
+                                     tn_stepfile_guid(step, "guard", number).text, tn_solid_kind_text(s->kind), where,
+                                     body);
+    keep(ifc, s, guard, list);
+}
+
 static void put_box(tn_ifc *ifc, const tn_solid *s, unsigned number, tn_stepfile_list *list)
 {
     tn_stepfile *step = &ifc->step;
@@ -566,7 +578,9 @@ static void put_elements(tn_ifc *ifc, tn_stepfile_list *list)
         const tn_solid *s = &ifc->solids->boxes[i];
         if (storey_of(ifc, s) != ifc->storey || s->kind == TN_SOLID_FLIGHT)
             continue;
-        if (!is_wall(s->kind))
+        if (s->kind == TN_SOLID_GUARD)
+            put_guard(ifc, s, (unsigned)i, list);
+        else if (!is_wall(s->kind))
             put_box(ifc, s, (unsigned)i, list);
         else if (!ifc->walls[s->of])
             put_wall(ifc, i, list);

@@ -134,7 +134,8 @@ static tn_status check_tile(const tn_checker *checker, const tn_form_record *for
                            : status;
 }
 
-/* The boxes of a form's tiles follow one another; an item is named by the first of its name among them. */
+/* The boxes of a form's tiles follow one another; an item is named by the first of its name among them. Guards have the
+ * number behind all of them. */
 static tn_status check_material(const tn_checker *checker, const tn_form_record *form, uint32_t index)
 {
     const tn_module *module = checker->module;
@@ -145,7 +146,7 @@ static tn_status check_material(const tn_checker *checker, const tn_form_record 
     if (material->where != TN_NO_RECORD && !decides(checker, material->where, TN_FUNCTION_SECTION, form->schema))
         return tn_refuse(checker, "material %u names a function of another kind or schema", index);
     return check_items(checker, material->part_first, material->part_count,
-                       TN_OF_COUNT + form->layer_count + form->opening_count + boxes);
+                       TN_OF_COUNT + form->layer_count + form->opening_count + boxes + 1);
 }
 
 /* They stand by what they are layers of, and fill it. */
@@ -283,6 +284,8 @@ static tn_status check_form(const tn_checker *checker, uint32_t index)
         return tn_refuse(checker, "form %u has walls whose halves are not whole", index);
     if (form->way % 2 || (form->way > 0 && form->headroom < 1))
         return tn_refuse(checker, "form %u has ways whose halves are not whole, or without headroom", index);
+    if (form->guard > 0 && form->way == 0)
+        return tn_refuse(checker, "form %u has guards without ways", index);
     for (uint32_t i = 0; i < form->storey_count; i++)
         if (module->STOREY_records[form->storey_first + i].height <= form->deck)
             return tn_refuse(checker, "storey %u is not higher than its deck", form->storey_first + i);

@@ -603,7 +603,7 @@ static bool is_built_priced(const tn_house_form *form, bool walls, uint32_t by)
 
 static bool are_items_priced(const tn_house_form *form)
 {
-    for (uint32_t part = tn_form_openings_part(form) + form->record->opening_count; part < tn_form_parts(form); part++)
+    for (uint32_t part = tn_form_openings_part(form) + form->record->opening_count; part < tn_form_guard_part(form); part++)
         if (is_priced(form, part, BY_ANY))
             return true;
     return false;
@@ -665,6 +665,9 @@ static tn_status check_openings(const tn_frontier *frontier, tn_error *error)
 {
     const tn_house_form *form = frontier->form;
     bool walls = is_built_priced(form, true, BY_NUMBER);
+    if (form->record->guard > 0 && is_priced(form, tn_form_guard_part(form), BY_ANY))
+        return refuse(frontier, "where guards stand depends on all trays around a flight or a void",
+                      "give guards no price, or ask nothing about costs", error);
     for (uint32_t i = 0; i < form->record->opening_count; i++) {
         const tn_opening_record *opening = &form->module->OPENING_records[form->record->opening_first + i];
         if (walls && is_full(form, opening))

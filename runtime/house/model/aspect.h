@@ -18,6 +18,7 @@ typedef enum tn_material_group {
     TN_GROUP_ITEM,
     TN_GROUP_PANE,
     TN_GROUP_LEAF,
+    TN_GROUP_GUARD,
     TN_GROUP_COUNT
 } tn_material_group;
 

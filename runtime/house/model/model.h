@@ -55,11 +55,6 @@ tn_status tn_blocks_mesh(const tn_blocks *blocks, uint32_t groups, tn_mesh *mesh
 
 /* ---- leaves.c */
 
-/* What fills an opening: a leaf 1 3/4" thick where one walks through, otherwise a pane of 1"; in the middle of its
- * wall. */
-#define TN_LEAF_NM INT64_C(44450000)
-#define TN_PANE_NM INT64_C(25400000)
-
 /* The hole that an opening of this height leaves in a face: across the wall it is as thick as the wall. False where
  * the face has no opening. */
 bool tn_house_hole(const tn_house *house, const tn_face *face, tn_box *hole);

@@ -8,6 +8,7 @@
 static const double colours[TN_GROUP_COUNT][3] = {
     [TN_GROUP_WALL] = {0.97, 0.96, 0.94}, [TN_GROUP_FLOOR] = {0.93, 0.90, 0.84}, [TN_GROUP_ROOF] = {0.62, 0.66, 0.72},
     [TN_GROUP_ITEM] = {0.84, 0.74, 0.60}, [TN_GROUP_PANE] = {0.70, 0.84, 0.93},  [TN_GROUP_LEAF] = {0.74, 0.46, 0.34},
+    [TN_GROUP_GUARD] = {0.80, 0.76, 0.70},
 };
 
 #define FACING 0.79 /* how light a surface is that looks at the eye (render.c) */

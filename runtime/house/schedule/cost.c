@@ -18,7 +18,12 @@ uint32_t tn_form_parts(const tn_house_form *form)
     uint32_t boxes = 0;
     for (uint32_t i = 0; i < form->record->tile_count; i++)
         boxes += form->module->TILE_records[form->record->tile_first + i].box_count;
-    return tn_form_openings_part(form) + form->record->opening_count + boxes;
+    return tn_form_openings_part(form) + form->record->opening_count + boxes + 1;
+}
+
+uint32_t tn_form_guard_part(const tn_house_form *form)
+{
+    return tn_form_parts(form) - 1;
 }
 
 /* The first box that has the name of this one and is no space to keep. */
@@ -65,6 +70,8 @@ uint32_t tn_solid_made_part(const tn_house *house, tn_solid_kind kind, uint32_t 
     case TN_SOLID_ITEM:
         return tn_form_openings_part(house->form) + house->form->record->opening_count +
                named_first(house->form, item) - first_box(house->form);
+    case TN_SOLID_GUARD:
+        return tn_form_guard_part(house->form);
     default:
         return TN_OF_ROOF;
     }
@@ -75,6 +82,8 @@ const char *tn_form_part_text(const tn_house_form *form, uint32_t part)
     const tn_module *module = form->module;
     if (part < TN_OF_COUNT)
         return tn_names_OF[part];
+    if (part == tn_form_guard_part(form))
+        return tn_solid_kind_text(TN_SOLID_GUARD);
     part -= TN_OF_COUNT;
     if (part < form->record->layer_count)
         return tn_text(module, tn_form_layer(form, part)->name);
@@ -313,6 +322,29 @@ static tn_cost_line *line_of(const tn_house *house, const tn_solid *s, const tn_
     return &costs->lines[tn_solid_made_part(house, s->kind, s->of, s->item)];
 }
 
+/* Pieces of one wall or guard follow one another. */
+static bool is_piece_of(const tn_solid *s, const tn_solid *before)
+{
+    return (is_wall(s->kind) || s->kind == TN_SOLID_GUARD) && s->kind == before->kind && s->of == before->of;
+}
+
+/* Their steps count whole, also where a post stands in one, so that a flight costs the same in all its places. */
+static tn_status add_flights(const tn_house *house, const tn_costs *costs, tn_error *error)
+{
+    tn_flights flights;
+    tn_status status = tn_flights_stand(house, &flights, error);
+    for (size_t i = 0; status == TN_OK && i < flights.count; i++) {
+        const tn_flight *flight = &flights.items[i];
+        tn_solid step = {.kind = TN_SOLID_FLIGHT, .of = flight->face};
+        for (size_t t = 0; t < flight->tread_count; t++) {
+            step.at = flight->treads[t];
+            add_box(house, &step, t == 0, line_of(house, &step, costs));
+        }
+    }
+    tn_flights_clear(&flights);
+    return status;
+}
+
 tn_status tn_house_costs(const tn_house *house, const tn_solids *solids, tn_costs *costs, tn_error *error)
 {
     tn_solids leaves = {0};
@@ -320,17 +352,17 @@ tn_status tn_house_costs(const tn_house *house, const tn_solids *solids, tn_cost
     tn_status status = make_lines(house, costs, error);
     if (status == TN_OK)
         status = tn_house_leaves(house, &leaves, error);
-    uint32_t wall = TN_NO_CELL; /* pieces of one wall or flight follow one another */
     for (size_t i = 0; status == TN_OK && i < solids->box_count; i++) {
         const tn_solid *s = &solids->boxes[i];
-        bool pieces = is_wall(s->kind) || s->kind == TN_SOLID_FLIGHT;
+        bool counts = i == 0 || !is_piece_of(s, &solids->boxes[i - 1]);
         tn_layering layers = tn_solid_layering(house, s->kind, s->of, s->item);
         if (layers.count > 0)
-            add_layers(house, s, &layers, !pieces || s->of != wall, costs);
-        else
-            add_box(house, s, !pieces || s->of != wall, line_of(house, s, costs));
-        wall = pieces ? s->of : TN_NO_CELL;
+            add_layers(house, s, &layers, counts, costs);
+        else if (s->kind != TN_SOLID_FLIGHT)
+            add_box(house, s, counts, line_of(house, s, costs));
     }
+    if (status == TN_OK)
+        status = add_flights(house, costs, error);
     for (size_t i = 0; status == TN_OK && i < leaves.box_count; i++)
         add_box(house, &leaves.boxes[i], true, line_of(house, &leaves.boxes[i], costs));
     for (size_t i = 0; status == TN_OK && i < solids->prism_count; i++)

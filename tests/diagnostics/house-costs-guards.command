@@ -1,0 +1,1 @@
+count house-costs-guards.plan --library huts --by price
