@@ -33,7 +33,6 @@ static tn_status put_flight(const tn_house *house, const tn_face *face, tn_marks
 {
     tn_flight flight;
     tn_status status = tn_flight_stand(house, face, &flight, error);
-    tn_flight_clear(&flight);
     double u0 = 0, v0 = 0, tip = TREAD_NM * 0.6;
     for (size_t i = 0; i < flight.path_count; i++) {
         double u = (double)flight.path[i][0], v = (double)flight.path[i][1], along = fabs(u - u0) + fabs(v - v0);
@@ -47,6 +46,7 @@ static tn_status put_flight(const tn_house *house, const tn_face *face, tn_marks
         u0 = u;
         v0 = v;
     }
+    tn_flight_clear(&flight);
     return status;
 }
 
