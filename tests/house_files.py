@@ -18,16 +18,19 @@ import sys
 from collections import Counter
 from fractions import Fraction as F
 
+import house_prisms
+
 # The attributes of each entity, inherited ones first: S text, E enumeration, R real, I integer, N instance, A list of instances, V list of
-# numbers, D derived (*). Small letters: it may be left out ($).
+# numbers, L list of such lists, D derived (*). Small letters: it may be left out ($).
 ROOT, PRODUCT = "Snss", "Snsssnn"
 ELEMENT, SPATIAL = PRODUCT + "s", PRODUCT + "se"
 TYPES = {
-    "IFCAXIS2PLACEMENT2D": "Nn", "IFCAXIS2PLACEMENT3D": "Nnn", "IFCARBITRARYCLOSEDPROFILEDEF": "EsN", "IFCBUILDING": SPATIAL + "rrn",
-    "IFCBUILDINGSTOREY": SPATIAL + "r", "IFCCARTESIANPOINT": "V", "IFCCOLUMN": ELEMENT + "e", "IFCDIRECTION": "V", "IFCDOOR": ELEMENT + "rrees",
+    "IFCAXIS2PLACEMENT2D": "Nn", "IFCAXIS2PLACEMENT3D": "Nnn", "IFCBUILDING": SPATIAL + "rrn",
+    "IFCBUILDINGSTOREY": SPATIAL + "r", "IFCCARTESIANPOINT": "V", "IFCCARTESIANPOINTLIST3D": "L", "IFCCOLUMN": ELEMENT + "e", "IFCDIRECTION": "V", "IFCDOOR": ELEMENT + "rrees",
     "IFCELEMENTQUANTITY": ROOT + "sA", "IFCEXTRUDEDAREASOLID": "NnNR", "IFCFURNITURE": ELEMENT + "e",
     "IFCGEOMETRICREPRESENTATIONCONTEXT": "ssIrNn", "IFCGEOMETRICREPRESENTATIONSUBCONTEXT": "ssDDDDNrEs", "IFCLOCALPLACEMENT": "nN",
-    "IFCMATERIAL": "Sss", "IFCMATERIALLAYER": "nResssi", "IFCMATERIALLAYERSET": "Ass", "IFCMATERIALLAYERSETUSAGE": "NEERr", "IFCOPENINGELEMENT": ELEMENT + "e", "IFCPOLYLINE": "A", "IFCPRODUCTDEFINITIONSHAPE": "ssA", "IFCPROJECT": ROOT + "sssan",
+    "IFCINDEXEDPOLYGONALFACE": "V", "IFCMATERIAL": "Sss", "IFCMATERIALLAYER": "nResssi", "IFCMATERIALLAYERSET": "Ass",
+    "IFCMATERIALLAYERSETUSAGE": "NEERr", "IFCOPENINGELEMENT": ELEMENT + "e", "IFCPOLYGONALFACESET": "NEAv", "IFCPRODUCTDEFINITIONSHAPE": "ssA", "IFCPROJECT": ROOT + "sssan",
     "IFCQUANTITYAREA": "SsnRs", "IFCQUANTITYVOLUME": "SsnRs", "IFCRAILING": ELEMENT + "e", "IFCRECTANGLEPROFILEDEF": "EsnRR", "IFCRELAGGREGATES": ROOT + "NA",
     "IFCRELASSOCIATESMATERIAL": ROOT + "AN", "IFCRELCONTAINEDINSPATIALSTRUCTURE": ROOT + "AN", "IFCRELDEFINESBYPROPERTIES": ROOT + "AN",
     "IFCRELFILLSELEMENT": ROOT + "NN", "IFCRELSPACEBOUNDARY": ROOT + "NNnEE", "IFCRELVOIDSELEMENT": ROOT + "NN", "IFCROOF": ELEMENT + "e",
@@ -38,11 +41,12 @@ NUMBER = r"-?\d+(\.\d*(E[+-]?\d+)?)?"
 WRITTEN = {
     "S": r"'([ -&(-\[\]-~]|''|\\\\|\\X2\\([0-9A-F]{4})+\\X0\\|\\X4\\([0-9A-F]{8})+\\X0\\)*'",
     "E": r"\.[A-Z0-9_]+\.", "R": r"-?\d+\.\d*(E[+-]?\d+)?", "I": r"-?\d+", "N": r"#\d+", "A": r"\(#\d+(,#\d+)*\)",
-    "V": rf"\({NUMBER}(,{NUMBER})*\)", "D": r"\*",
+    "V": rf"\({NUMBER}(,{NUMBER})*\)", "L": rf"\(\({NUMBER}(,{NUMBER})*\)(,\({NUMBER}(,{NUMBER})*\))*\)", "D": r"\*",
 }
 # (entity, attribute) -> the values of its enumeration that houses have
 VALUES = {
     ("IFCWALL", 8): "SOLIDWALL PARTITIONING", ("IFCSLAB", 8): "FLOOR BASESLAB ROOF", ("IFCRAILING", 8): "GUARDRAIL", ("IFCDOOR", 10): "DOOR", ("IFCWINDOW", 10): "WINDOW",
+    ("IFCROOF", 8): "FLAT_ROOF SHED_ROOF GABLE_ROOF BARREL_ROOF HIP_ROOF NOTDEFINED",
     ("IFCMATERIALLAYERSETUSAGE", 1): "AXIS2 AXIS3", ("IFCMATERIALLAYERSETUSAGE", 2): "POSITIVE NEGATIVE", ("IFCRELSPACEBOUNDARY", 7): "PHYSICAL", ("IFCRELSPACEBOUNDARY", 8): "INTERNAL EXTERNAL", ("IFCSPACE", 8): "ELEMENT",
 }
 ELEMENTS = "IFCWALL IFCCOLUMN IFCSLAB IFCROOF IFCSTAIR IFCRAILING IFCFURNITURE IFCDOOR IFCWINDOW".split()
@@ -50,16 +54,16 @@ PRODUCTS = ELEMENTS + ["IFCOPENINGELEMENT", "IFCSPACE", "IFCSITE", "IFCBUILDING"
 # attribute -> what it may refer to
 REFERENCES = {
     ("IFCLOCALPLACEMENT", 0): ["IFCLOCALPLACEMENT"], ("IFCLOCALPLACEMENT", 1): ["IFCAXIS2PLACEMENT3D"],
-    ("IFCEXTRUDEDAREASOLID", 0): ["IFCRECTANGLEPROFILEDEF", "IFCARBITRARYCLOSEDPROFILEDEF"],
+    ("IFCEXTRUDEDAREASOLID", 0): ["IFCRECTANGLEPROFILEDEF"],
     ("IFCEXTRUDEDAREASOLID", 1): ["IFCAXIS2PLACEMENT3D"], ("IFCEXTRUDEDAREASOLID", 2): ["IFCDIRECTION"],
-    ("IFCARBITRARYCLOSEDPROFILEDEF", 2): ["IFCPOLYLINE"], ("IFCPOLYLINE", 0): ["IFCCARTESIANPOINT"],
-    ("IFCSHAPEREPRESENTATION", 3): ["IFCEXTRUDEDAREASOLID"], ("IFCPRODUCTDEFINITIONSHAPE", 2): ["IFCSHAPEREPRESENTATION"],
+    ("IFCPOLYGONALFACESET", 0): ["IFCCARTESIANPOINTLIST3D"], ("IFCPOLYGONALFACESET", 2): ["IFCINDEXEDPOLYGONALFACE"],
+    ("IFCSHAPEREPRESENTATION", 3): ["IFCEXTRUDEDAREASOLID", "IFCPOLYGONALFACESET"], ("IFCPRODUCTDEFINITIONSHAPE", 2): ["IFCSHAPEREPRESENTATION"],
     ("IFCRELVOIDSELEMENT", 4): ["IFCWALL"], ("IFCRELVOIDSELEMENT", 5): ["IFCOPENINGELEMENT"],
     ("IFCRELFILLSELEMENT", 4): ["IFCOPENINGELEMENT"], ("IFCRELFILLSELEMENT", 5): ["IFCDOOR", "IFCWINDOW"],
     ("IFCRELCONTAINEDINSPATIALSTRUCTURE", 4): ELEMENTS, ("IFCRELCONTAINEDINSPATIALSTRUCTURE", 5): ["IFCBUILDINGSTOREY"],
     ("IFCMATERIALLAYER", 0): ["IFCMATERIAL"], ("IFCMATERIALLAYERSET", 0): ["IFCMATERIALLAYER"], ("IFCMATERIALLAYERSETUSAGE", 0): ["IFCMATERIALLAYERSET"],
-    ("IFCRELAGGREGATES", 4): ["IFCPROJECT", "IFCSITE", "IFCBUILDING", "IFCBUILDINGSTOREY"],
-    ("IFCRELAGGREGATES", 5): ["IFCSITE", "IFCBUILDING", "IFCBUILDINGSTOREY", "IFCSPACE"],
+    ("IFCRELAGGREGATES", 4): ["IFCPROJECT", "IFCSITE", "IFCBUILDING", "IFCBUILDINGSTOREY", "IFCROOF"],
+    ("IFCRELAGGREGATES", 5): ["IFCSITE", "IFCBUILDING", "IFCBUILDINGSTOREY", "IFCSPACE", "IFCSLAB"],
     ("IFCRELSPACEBOUNDARY", 4): ["IFCSPACE"], ("IFCRELSPACEBOUNDARY", 5): ["IFCWALL"],
     ("IFCRELDEFINESBYPROPERTIES", 5): ["IFCELEMENTQUANTITY"], ("IFCRELASSOCIATESMATERIAL", 5): ["IFCMATERIAL", "IFCMATERIALLAYERSET", "IFCMATERIALLAYERSETUSAGE"],
     ("IFCPROJECT", 8): ["IFCUNITASSIGNMENT"],
@@ -141,8 +145,25 @@ def check_ifc(made):
             ids[args[0]] += 1
     check("identifiers are unique", all(n == 1 for n in ids.values()))
     inside = Counter(to for name, args in made.values() if name == "IFCRELCONTAINEDINSPATIALSTRUCTURE" for to in references(args[4]))
+    roofs = [args for name, args in made.values() if name == "IFCRELAGGREGATES" and made[references(args[4])[0]][0] == "IFCROOF"]
+    inside += Counter(to for args in roofs for to in references(args[5]))
     for number, (name, _) in made.items():
-        check(f"#{number}={name} is in one storey", name not in ELEMENTS or inside[number] == 1)
+        check(f"#{number}={name} is in one storey, or of a roof there", name not in ELEMENTS or inside[number] == 1)
+
+
+def volume_of_faces(made, args):
+    """Of a solid of flat faces: each of its edges is between two of them."""
+    points = [tuple(F(c) for c in point.split(",")) for point in made[references(args[0])[0]][1][0].strip("()").split("),(")]
+    rings = [[points[int(n) - 1] for n in made[face][1][0].strip("()").split(",")] for face in references(args[2])]
+    edges = Counter((a, b) for ring in rings for a, b in zip(ring, ring[1:] + ring[:1]))
+    check("a solid is closed", all(n == 1 and edges[b, a] == 1 for (a, b), n in edges.items()))
+    total = F(0)
+    for ring in rings:
+        for b, c in zip(ring[1:], ring[2:]):
+            u, v, w = ([p[k] - points[0][k] for k in range(3)] for p in (ring[0], b, c))
+            total += sum(u[k] * (v[k - 2] * w[k - 1] - v[k - 1] * w[k - 2]) for k in range(3)) / 6
+    check("and has a volume", total > 0)
+    return total
 
 
 def volume_of(made, product):
@@ -153,29 +174,15 @@ def volume_of(made, product):
     shape = made[references(made[product][1][6])[0]]
     for representation in references(shape[1][2]):
         for solid in references(made[representation][1][3]):
+            if made[solid][0] == "IFCPOLYGONALFACESET":
+                total += volume_of_faces(made, made[solid][1])
+                continue
             profile, _, _, depth = made[solid][1]
             name, args = made[references(profile)[0]]
-            if name == "IFCRECTANGLEPROFILEDEF":
-                area = F(args[3]) * F(args[4])
-            else:
-                points = [[F(c) for c in made[p][1][0].strip("()").split(",")] for p in references(made[references(args[2])[0]][1][0])]
-                check("a profile is closed", points[0] == points[-1])
-                area = sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(points, points[1:])) / 2
+            area = F(args[3]) * F(args[4])
             check("a solid has a volume", area > 0 and F(depth) > 0)
             total += area * F(depth)
     return total
-
-
-def length_of_roof(r):
-    low, high = r["x"] if "x" in r else r["y"]
-    return high - low
-
-
-def volume_of_roof(r):
-    """Down to its base, or, of a slab, as thick as that is upright."""
-    line = [(F(y), F(z)) for y, z in r["profile"]]
-    heights = [F(r["slab"]) if "slab" in r else (a[1] + b[1]) / 2 - r["base"] for a, b in zip(line, line[1:])]
-    return length_of_roof(r) * sum((b[0] - a[0]) * high for a, b, high in zip(line, line[1:], heights))
 
 
 def has_leaf(kind):
@@ -191,19 +198,25 @@ def compare(made, house):
     plain = {"wall", "party", "open", "floor", "stair"}
     flights = {s["of"] for s in house["solids"] if s["kind"] == "flight"}
     openings = [f for i, f in enumerate(house["faces"]) if f["kind"] not in plain and i not in flights]
-    check("as many walls", len(of("IFCWALL")) == len(walls))
+    gables = {r["of"] for r in house["roofs"] if r["kind"] == "gable"}
+    check("as many walls", len(of("IFCWALL")) == len(walls) + len(gables))
     check("as many posts", len(of("IFCCOLUMN")) == kinds["post"])
-    check("as many slabs", len(of("IFCSLAB")) == kinds["deck"] + kinds["roofdeck"])
+    slabs = {(r["of"], house_prisms.plane_of(house_prisms.corners_of(r), 3)) for r in house["roofs"] if r["kind"] == "roof"}
+    check("as many slabs", len(of("IFCSLAB")) == kinds["deck"] + kinds["roofdeck"] + len(slabs))
     check("as many guards", len(of("IFCRAILING")) == kinds["guard"])
     check("as many things", len(of("IFCFURNITURE")) == kinds["item"])
-    check("as many roofs", len(of("IFCROOF")) == len(house["roofs"]))
+    tops = {(house["cells"][of]["zone"], house["cells"][of]["storey"]) for of, _ in slabs}
+    check("a roof for each zone and storey", len(of("IFCROOF")) == len(tops))
     check("as many openings", len(of("IFCOPENINGELEMENT")) == len(openings))
     check("as many doors and windows", len(of("IFCDOOR")) + len(of("IFCWINDOW")) == sum(has_leaf(f["kind"]) for f in openings))
     check("as many stairs", len(of("IFCSTAIR")) == sum(f["kind"] == "stair" for f in house["faces"]) + len(flights))
     check("as many rooms", len(of("IFCSPACE")) == len(house["rooms"]))
-    solid = sum(volume_of(made, n) for n in of("IFCWALL")) - sum(volume_of(made, n) for n in of("IFCOPENINGELEMENT"))
+    named_as = lambda kind, name: [n for n in of(kind) if spelt(made[n][1][2]) == name]
+    below = sum(volume_of(made, n) for n in named_as("IFCWALL", "gable"))
+    over = sum(volume_of(made, n) for n in named_as("IFCSLAB", "roof"))
+    solid = sum(volume_of(made, n) for n in of("IFCWALL")) - below - sum(volume_of(made, n) for n in of("IFCOPENINGELEMENT"))
     check("walls less openings", solid == sum(box(s) for s in house["solids"] if s["kind"] in ("outside", "party", "partition")))
-    rest = sum(volume_of(made, n) for name in ("IFCCOLUMN", "IFCSLAB", "IFCFURNITURE", "IFCSTAIR", "IFCRAILING") for n in of(name))
+    rest = sum(volume_of(made, n) for name in ("IFCCOLUMN", "IFCSLAB", "IFCFURNITURE", "IFCSTAIR", "IFCRAILING") for n in of(name)) - over
     check("other boxes", rest == sum(box(s) for s in house["solids"] if s["kind"] not in ("outside", "party", "partition")))
     materials = [spelt(made[n][1][0]) for n in of("IFCMATERIAL")]
     check("each material once", len(materials) == len(set(materials)))
@@ -214,8 +227,9 @@ def compare(made, house):
     check("doors and windows have theirs", named("IFCDOOR", "IFCWINDOW") == Counter(f["kind"] for f in openings if has_leaf(f["kind"])))
     check("things have theirs", named("IFCFURNITURE") == Counter(s["name"] for s in house["solids"] if s["kind"] == "item"))
     check("the project says the house", spelt(made[of("IFCPROJECT")[0]][1][3]) == house["house"])
-    roofs = sum(map(volume_of_roof, house["roofs"]))
-    check("roofs", abs(sum(volume_of(made, n) for n in of("IFCROOF")) - roofs / 10**18) < 1)  # mm3: points are rounded to 1e-6 nm
+    for kind, said in (("roof", over), ("gable", below)):  # mm3: points are rounded to 1e-6 nm
+        wanted = sum(house_prisms.volume_of(r) for r in house["roofs"] if r["kind"] == kind)
+        check(f"volume of {kind}s", abs(said - wanted / 10**18) < 1)
 
 
 def read_again(reader, path, made):
@@ -372,7 +386,7 @@ def check_doors(made, house, groups):
     for storey, (name, args) in made.items():
         if name != "IFCBUILDINGSTOREY":
             continue
-        inside = [n for n in contained if contained[n] == storey and made[n][0] in ("IFCWALL", "IFCCOLUMN")]
+        inside = [n for n in contained if contained[n] == storey and made[n][0] in ("IFCWALL", "IFCCOLUMN") and spelt(made[n][1][2]) != "gable"]
         plan = plans.get("plan, " + spelt(args[2]))
         check(f"a plan of {args[2]}", plan)
         if not inside or not plan:
@@ -453,6 +467,13 @@ def slope(rise, way):
     return F(math.isqrt(square.numerator * 10**18 // square.denominator), 10**9)
 
 
+def below_roofs(house):
+    """The area of the walls below roofs: an outside wall is as thick as a wall."""
+    thick = {min(s["box"][1] - s["box"][0], s["box"][3] - s["box"][2]) for s in house["solids"] if s["kind"] == "outside"}
+    volume = sum(house_prisms.volume_of(r) for r in house["roofs"] if r["kind"] == "gable")
+    return volume / max(thick) if volume else 0
+
+
 def check_parts(path, house):
     """The table of parts, worked out again from the boxes and the lines of the roofs; money to the cent."""
     kind_of = {"outside": "wall", "party": "party", "partition": "partition", "post": "post", "deck": "deck", "roofdeck": "deck", "guard": "guard"}
@@ -479,11 +500,13 @@ def check_parts(path, house):
             guards |= {s["of"]} if s["kind"] == "guard" else set()
         volume[part] += 0 if "layers" in s else x * y * z
     for r in house["roofs"]:
-        line, wide = [(F(y), F(z)) for y, z in r["profile"]], length_of_roof(r)
-        number["roof"] += 1
-        for a, b in zip(line, line[1:]):
-            area["roof"] += (b[0] - a[0]) * wide * slope(b[1] - a[1], b[0] - a[0])
-        volume["roof"] += volume_of_roof(r)
+        if r["kind"] == "gable":
+            volume["wall"] += house_prisms.volume_of(r)
+            continue
+        p, q, _ = house_prisms.plane_of(house_prisms.corners_of(r), 3)
+        area["roof"] += house_prisms.plan_of(r) * slope(abs(p + q), 1)
+        volume["roof"] += house_prisms.volume_of(r)
+    number["roof"] = len({r["of"] for r in house["roofs"] if r["kind"] == "roof"})
     for f in house["faces"]:
         number[f["kind"]] += f["kind"] not in ("wall", "party", "open", "floor", "stair") and has_leaf(f["kind"])
     unit = {"each": 1, "sf": 304800000**2, "m2": 10**18, "cf": 304800000**3, "m3": 10**27}
@@ -497,6 +520,8 @@ def check_parts(path, house):
             continue
         check(f"{part}: as many", int(row["number"]) == number[part] == given[part]["number"])
         if part in area:
+            if part == "wall":  # what stands below roofs is as wide and high as if it were as thick as a wall all over
+                area[part] += below_roofs(house)
             check(f"{part}: as large", F(given[part]["area"]) == area[part] and F(given[part]["volume"]) == volume[part])
             for column, size in (("area", area[part]), ("volume", volume[part])):
                 in_unit, at = next((u, f"{column}_{u}") for u in ("sf", "m2", "cf", "m3") if f"{column}_{u}" in row)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Holds the solids of a house to its meshes: house_solids.py FOLDER, with house.json, house.parts.csv and house.obj (and house.glb).
 
-No two solids overlap: points of every roof are inside of it alone. The volume of all solids, with the leaves of doors and the panes of
+No two solids overlap: points of every prism of a roof are inside of it alone. The volume of all solids, with the leaves of doors and the panes of
 windows, is that of the mesh; each of its edges is between two faces that turn opposite ways. Where assimp is installed, it reads the
 .obj and .glb, and finds the same volume and area."""
 import json
@@ -13,6 +13,8 @@ import subprocess
 import sys
 from fractions import Fraction as F
 
+import house_prisms
+
 failures = []
 
 
@@ -21,41 +23,20 @@ def check(what, holds):
         failures.append(what)
 
 
-def line_of(roof):
-    return [(F(y), F(z)) for y, z in roof["profile"]]
-
-
-def ends_of(roof):
-    return roof["x"] if "x" in roof else roof["y"]
-
-
-def is_inside(roof, point):
-    """Points on its boundary are not inside."""
-    along, across = (point[0], point[1]) if "x" in roof else (point[1], point[0])
-    line, (low, high) = line_of(roof), ends_of(roof)
-    if not (low < along < high and line[0][0] < across < line[-1][0]):
-        return False
-    a, b = next((a, b) for a, b in zip(line, line[1:]) if a[0] <= across <= b[0])
-    top = a[1] + (b[1] - a[1]) * (across - a[0]) / (b[0] - a[0])
-    return (top - roof["slab"] if "slab" in roof else roof["base"]) < point[2] < top
-
-
 def check_apart(house):
     chance = random.Random(1)
     boxes = [s["box"] for s in house["solids"]]
-    for roof in house["roofs"]:
-        line, (low, high) = line_of(roof), ends_of(roof)
-        heights = [z for _, z in line]
-        floor = min(heights) - roof["slab"] if "slab" in roof else roof["base"]
-        for _ in range(40):
-            along = low + (high - low) * F(chance.randrange(1, 1000), 1000)
-            across = line[0][0] + (line[-1][0] - line[0][0]) * F(chance.randrange(1, 1000), 1000)
-            up = floor + (max(heights) - floor) * F(chance.randrange(1, 1000), 1000)
-            point = (along, across, up) if "x" in roof else (across, along, up)
-            if is_inside(roof, point):
-                inside = sum(is_inside(other, point) for other in house["roofs"])
-                inside += sum(b[0] < point[0] < b[1] and b[2] < point[1] < b[3] and b[4] < point[2] < b[5] for b in boxes)
-                check(f"a point of a roof of cell {roof['of']} is in {inside} solids", inside == 1)
+    known = [house_prisms.Known(prism) for prism in house["roofs"]]
+    for prism, own in zip(house["roofs"], known):
+        check(f"a prism of cell {prism['of']} is sound", house_prisms.is_sound(prism))
+        for _ in range(4):
+            parts = [F(chance.randrange(1, 1000)) for _ in own.corners]
+            x, y = (sum(p * c[k] for p, c in zip(parts, own.corners)) / sum(parts) for k in (0, 1))
+            low, high = own.ends(x, y)
+            z = low + (high - low) * F(chance.randrange(1, 1000), 1000)
+            inside = sum(other.is_inside(x, y, z) for other in known)
+            inside += sum(b[0] < x < b[1] and b[2] < y < b[3] and b[4] < z < b[5] for b in boxes)
+            check(f"a point of a {prism['kind']} of cell {prism['of']} is in {inside} solids", inside == 1)
 
 
 def check_boxes(house):
@@ -71,10 +52,7 @@ def volume_of(house):
     total = F(0)
     for b in (s["box"] for s in house["solids"]):
         total += F((b[1] - b[0]) * (b[3] - b[2]) * (b[5] - b[4]))
-    for roof in house["roofs"]:
-        line, (low, high) = line_of(roof), ends_of(roof)
-        for a, b in zip(line, line[1:]):
-            total += (high - low) * (b[0] - a[0]) * (F(roof["slab"]) if "slab" in roof else (a[1] + b[1]) / 2 - roof["base"])
+    total += sum(map(house_prisms.volume_of, house["roofs"]))
     flights = {house["faces"][s["of"]]["kind"] for s in house["solids"] if s["kind"] == "flight"}
     openings = {f["kind"] for f in house["faces"]} - {"wall", "party", "open", "floor", "stair"} - flights
     total += sum(F(p["volume"]) for p in house["parts"] if p["part"] in openings)

@@ -1,17 +1,18 @@
 // Reads a building model by IfcPlusPlus, and says how many of each kind of product there are, and what they hold: ifc_read FILE.ifc
 //
-// A line for each kind: `IfcWall 12 34567890.000`, the volume in cubic millimetres, of all extruded solids of their shapes.
+// A line for each kind: `IfcWall 12 34567890.000`, the volume in cubic millimetres, of all solids of their shapes.
 #include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <string>
 
-#include <ifcpp/IFC4/include/IfcArbitraryClosedProfileDef.h>
-#include <ifcpp/IFC4/include/IfcCartesianPoint.h>
+#include <ifcpp/IFC4/include/IfcCartesianPointList3D.h>
 #include <ifcpp/IFC4/include/IfcExtrudedAreaSolid.h>
+#include <ifcpp/IFC4/include/IfcIndexedPolygonalFace.h>
 #include <ifcpp/IFC4/include/IfcLengthMeasure.h>
-#include <ifcpp/IFC4/include/IfcPolyline.h>
+#include <ifcpp/IFC4/include/IfcPolygonalFaceSet.h>
+#include <ifcpp/IFC4/include/IfcPositiveInteger.h>
 #include <ifcpp/IFC4/include/IfcPositiveLengthMeasure.h>
 #include <ifcpp/IFC4/include/IfcProduct.h>
 #include <ifcpp/IFC4/include/IfcProductRepresentation.h>
@@ -23,16 +24,24 @@
 
 static double area_of(const shared_ptr<IfcProfileDef> &profile)
 {
-    if (auto box = dynamic_pointer_cast<IfcRectangleProfileDef>(profile))
-        return box->m_XDim->m_value * box->m_YDim->m_value;
-    auto closed = dynamic_pointer_cast<IfcArbitraryClosedProfileDef>(profile);
-    auto line = closed ? dynamic_pointer_cast<IfcPolyline>(closed->m_OuterCurve) : nullptr;
-    double twice = 0;
-    for (size_t i = 0; line && i + 1 < line->m_Points.size(); i++) {
-        const auto &a = line->m_Points[i]->m_Coordinates, &b = line->m_Points[i + 1]->m_Coordinates;
-        twice += a[0]->m_value * b[1]->m_value - b[0]->m_value * a[1]->m_value;
+    auto box = dynamic_pointer_cast<IfcRectangleProfileDef>(profile);
+    return box ? box->m_XDim->m_value * box->m_YDim->m_value : 0;
+}
+
+static double volume_of(const IfcPolygonalFaceSet &set)
+{
+    double six = 0;
+    const auto &points = dynamic_pointer_cast<IfcCartesianPointList3D>(set.m_Coordinates)->m_CoordList;
+    auto at = [&](const shared_ptr<IfcPositiveInteger> &number, int k) {
+        return points[size_t(number->m_value) - 1][size_t(k % 3)]->m_value - points[0][size_t(k % 3)]->m_value;
+    };
+    for (const auto &face : set.m_Faces) {
+        const auto &ring = face->m_CoordIndex;
+        for (size_t i = 1; i + 1 < ring.size(); i++)
+            for (int k = 0; k < 3; k++)
+                six += at(ring[0], k) * (at(ring[i], k + 1) * at(ring[i + 1], k + 2) - at(ring[i], k + 2) * at(ring[i + 1], k + 1));
     }
-    return twice / 2;
+    return six / 6;
 }
 
 static double volume_of(const shared_ptr<IfcProduct> &product)
@@ -41,9 +50,12 @@ static double volume_of(const shared_ptr<IfcProduct> &product)
     if (!product->m_Representation)
         return 0;
     for (const auto &shape : product->m_Representation->m_Representations)
-        for (const auto &item : shape->m_Items)
+        for (const auto &item : shape->m_Items) {
+            if (auto set = dynamic_pointer_cast<IfcPolygonalFaceSet>(item))
+                volume += volume_of(*set);
             if (auto solid = dynamic_pointer_cast<IfcExtrudedAreaSolid>(item))
                 volume += area_of(solid->m_SweptArea) * solid->m_Depth->m_value;
+        }
     return volume;
 }
 

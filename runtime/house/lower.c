@@ -1,55 +1,5 @@
-/* The line of a roof, and how high lower roofs stand before an opening. */
+/* How high lower roofs stand before an opening. */
 #include "runtime/house/solids.h"
-
-enum { VAULT_STEPS = TN_PROFILE_MAX - 1 };
-
-/* ---- the line of a roof */
-
-static tn_profile profile_of(const tn_shape_record *shape, int64_t y0, int64_t y1)
-{
-    tn_int128 from = y0, to = y1, wide = to - from, rise = shape ? shape->rise : 0;
-    tn_int128 run = shape && shape->run ? shape->run : 1;
-    switch (shape ? (tn_roof_kind)shape->roof : TN_ROOF_FLAT) {
-    case TN_ROOF_SHED_BACK:
-        return (tn_profile){{from, to}, {0, wide * rise}, 1, run, 2};
-    case TN_ROOF_SHED_FRONT:
-        return (tn_profile){{from, to}, {wide * rise, 0}, 1, run, 2};
-    case TN_ROOF_GABLE:
-        return (tn_profile){{2 * from, from + to, 2 * to}, {0, wide * rise, 0}, 2, 2 * run, 3};
-    case TN_ROOF_VAULT: {
-        tn_profile profile = {.y_bottom = VAULT_STEPS, .z_bottom = VAULT_STEPS * VAULT_STEPS, .count = TN_PROFILE_MAX};
-        for (int i = 0; i <= VAULT_STEPS; i++) {
-            profile.y[i] = from * VAULT_STEPS + wide * i;
-            profile.z[i] = (tn_int128)shape->height * 4 * i * (VAULT_STEPS - i);
-        }
-        return profile;
-    }
-    default:
-        return (tn_profile){{from, to}, {0, 0}, 1, 1, 2};
-    }
-}
-
-tn_fraction tn_profile_height(const tn_profile *profile, tn_int128 y, int64_t base)
-{
-    size_t i = 0;
-    while (i + 2 < profile->count && profile->y[i + 1] < y)
-        i++;
-    tn_int128 run = profile->y[i + 1] - profile->y[i], rise = profile->z[i + 1] - profile->z[i];
-    tn_fraction slope = tn_fraction_new(rise, run * profile->z_bottom); /* of a y in fractions */
-    tn_fraction part = tn_fraction_new((y - profile->y[i]) * slope.top, slope.bottom);
-    tn_fraction start = tn_fraction_new(profile->z[i] + (tn_int128)base * profile->z_bottom, profile->z_bottom);
-    return tn_fraction_new(start.top * part.bottom + part.top * start.bottom, start.bottom * part.bottom);
-}
-
-tn_profile tn_roof_profile(const tn_house *house, const tn_cell *cell)
-{
-    const tn_shape_record *shape = tn_house_shape(house, cell->zone, TN_CHOICE_ROOF);
-    tn_rectangle grown = tn_cell_grown(house, cell);
-    bool across = shape && shape->flags & TN_ROOF_ACROSS;
-    return across ? profile_of(shape, grown.x0, grown.x1) : profile_of(shape, grown.y0, grown.y1);
-}
-
-/* ---- lower roofs */
 
 bool tn_cell_is_top(const tn_house *house, uint32_t cell)
 {
@@ -102,28 +52,17 @@ static bool meets_roof(const tn_house *house, const tn_face *face, uint32_t cell
     return line->y0 < line->y1;
 }
 
-static void raise_to(tn_fraction height, bool *any, tn_fraction *top)
-{
-    if (!*any || height.top * top->bottom > top->top * height.bottom)
-        *top = height;
-    *any = true;
-}
-
-/* Raises the top to the highest point of a cell's roof along a line. */
+/* Raises the top to the highest point of a cell's roof along a line. A hip counts as the gable that it is cut from: how
+ * far away its ends are is nothing that trays beside each other know. */
 static void raise_along(const tn_house *house, uint32_t index, tn_rectangle line, bool *any, tn_fraction *top)
 {
     const tn_cell *cell = &house->cells[index];
-    const tn_shape_record *shape = tn_house_shape(house, cell->zone, TN_CHOICE_ROOF);
-    bool across = shape && shape->flags & TN_ROOF_ACROSS;
-    tn_profile profile = tn_roof_profile(house, cell);
-    int64_t base = house->form->level[cell->storey + 1] + house->form->record->roof;
-    tn_int128 from = (tn_int128)(across ? line.x0 : line.y0) * profile.y_bottom,
-              to = (tn_int128)(across ? line.x1 : line.y1) * profile.y_bottom;
-    raise_to(tn_profile_height(&profile, from, base), any, top);
-    raise_to(tn_profile_height(&profile, to, base), any, top);
-    for (size_t i = 0; i < profile.count; i++)
-        if (profile.y[i] > from && profile.y[i] < to)
-            raise_to(tn_profile_height(&profile, profile.y[i], base), any, top);
+    tn_slopes slopes = tn_roof_slopes(house, cell);
+    tn_fraction height =
+        tn_slopes_highest(&slopes, line, house->form->level[cell->storey + 1] + house->form->record->roof);
+    if (!*any || tn_fraction_less(*top, height))
+        *top = height;
+    *any = true;
 }
 
 bool tn_face_roofed(const tn_house *house, const tn_face *face, const tn_opening_record *opening, tn_fraction *top)

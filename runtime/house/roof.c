@@ -1,15 +1,17 @@
-/* Builds the roofs: which cell covers what, the decks below, and prisms under a flat, a sloped or a vaulted line. */
+/* Builds the roofs: which cell covers what, the decks below, and slabs over it, with walls below them. */
 #include <stdlib.h>
 
 #include "runtime/base/array.h"
 #include "runtime/house/solids.h"
 
-static tn_status add_point(tn_solids *solids, tn_roof_point point, tn_error *error)
+/* ---- slabs */
+
+static tn_status add_corner(tn_solids *solids, tn_prism_corner corner, tn_error *error)
 {
-    if (!tn_array_reserve_from(&solids->points, &solids->point_room, 64, solids->point_count, 1,
-                               sizeof *solids->points))
+    if (!tn_array_reserve_from(&solids->corners, &solids->corner_room, 64, solids->corner_count, 1,
+                               sizeof *solids->corners))
         return tn_fail_memory(error);
-    solids->points[solids->point_count++] = point;
+    solids->corners[solids->corner_count++] = corner;
     return TN_OK;
 }
 
@@ -22,34 +24,47 @@ static tn_status add_prism(tn_solids *solids, tn_prism prism, tn_error *error)
     return TN_OK;
 }
 
-tn_status tn_roof_put(const tn_house *house, uint32_t index, tn_rectangle r, bool slab, int64_t base, tn_solids *solids,
+/* The slab over a facet whose foot is at a level, or the wall from `base` up to that. */
+static tn_status put_facet(const tn_slopes *slopes, const tn_facet *facet, tn_prism prism, int64_t foot, int64_t thick,
+                           const int64_t *base, tn_solids *solids, tn_error *error)
+{
+    tn_int128 rise = slopes->items[facet->plane].x + slopes->items[facet->plane].y; /* one of them is 0 */
+    bool high = false;
+    tn_status status = TN_OK;
+    prism.plane = facet->plane;
+    prism.rise = tn_fraction_new(rise < 0 ? -rise : rise, slopes->bottom);
+    prism.corner_first = solids->corner_count;
+    prism.corner_count = facet->count;
+    for (size_t i = 0; status == TN_OK && i < facet->count; i++) {
+        tn_fraction x = facet->at[i][0], y = facet->at[i][1], z = tn_slope_at(slopes, facet->plane, x, y, foot);
+        tn_prism_corner corner = {x, y, z, tn_fraction_raised(z, thick)};
+        if (base)
+            corner = (tn_prism_corner){x, y, tn_fraction_whole(*base), z};
+        high = high || tn_fraction_less(corner.low, corner.high);
+        status = add_corner(solids, corner, error);
+    }
+    if (status == TN_OK && high)
+        return add_prism(solids, prism, error);
+    solids->corner_count = prism.corner_first; /* on a deck below a flat roof no wall stands */
+    return status;
+}
+
+tn_status tn_roof_put(const tn_house *house, uint32_t index, tn_rectangle r, const int64_t *base, tn_solids *solids,
                       tn_error *error)
 {
-    const tn_cell *cell = &house->cells[index];
-    const tn_shape_record *shape = tn_house_shape(house, cell->zone, TN_CHOICE_ROOF);
-    bool across = shape && shape->flags & TN_ROOF_ACROSS;
-    tn_profile profile = tn_roof_profile(house, cell);
-    int64_t eaves = house->form->level[cell->storey + 1] + house->form->record->roof;
-    tn_prism prism = {.of = index,
-                      .across = across,
-                      .from = across ? r.y0 : r.x0,
-                      .to = across ? r.y1 : r.x1,
-                      .base = base,
-                      .slab = slab ? house->form->record->roof : 0,
-                      .point_first = solids->point_count};
-    tn_int128 first = (tn_int128)(across ? r.x0 : r.y0) * profile.y_bottom,
-              last = (tn_int128)(across ? r.x1 : r.y1) * profile.y_bottom;
+    tn_facet facets[TN_FACETS_MAX];
+    tn_slopes slopes = tn_roof_slopes_of(house, index);
+    size_t count = tn_slopes_cut(&slopes, r, facets);
+    int64_t foot = house->form->level[house->cells[index].storey + 1], thick = house->form->record->roof;
     tn_status status = TN_OK;
-    for (size_t i = 0; status == TN_OK && i < profile.count + 2; i++) {
-        tn_int128 y = i == 0 ? first : i == profile.count + 1 ? last : profile.y[i - 1];
-        bool between = y > first && y < last;
-        if (i == 0 || i == profile.count + 1 || between)
-            status = add_point(
-                solids, (tn_roof_point){tn_fraction_new(y, profile.y_bottom), tn_profile_height(&profile, y, eaves)},
-                error);
+    for (size_t i = 0; status == TN_OK && i < count; i++) {
+        tn_prism prism = {.kind = TN_SOLID_ROOF, .of = index, .over = r};
+        status = put_facet(&slopes, &facets[i], prism, foot, thick, NULL, solids, error);
+        prism.kind = TN_SOLID_GABLE;
+        if (status == TN_OK && base)
+            status = put_facet(&slopes, &facets[i], prism, foot, thick, base, solids, error);
     }
-    prism.point_count = solids->point_count - prism.point_first;
-    return status == TN_OK ? add_prism(solids, prism, error) : status;
+    return status;
 }
 
 /* ---- who covers what */
@@ -142,52 +157,46 @@ static tn_status put_deck(const tn_house *house, uint32_t cell, const tn_rectang
     return status;
 }
 
-static tn_status put_roof(const tn_house *house, uint32_t cell, const tn_rectangles *over, bool slab, int64_t base,
+static tn_status put_over(const tn_house *house, uint32_t cell, const tn_rectangles *over, const int64_t *base,
                           tn_solids *solids, tn_error *error)
 {
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && i < over->count; i++)
-        status = tn_roof_put(house, cell, over->items[i], slab, base, solids, error);
+        status = tn_roof_put(house, cell, over->items[i], base, solids, error);
     return status;
 }
 
-/* A room that is open to its roof has a slab above, without a deck. Over walls and beside other roofs it is solid. */
-static tn_status put_open(const tn_house *house, const tn_parcel *decked, const tn_parcel *land,
-                          const tn_rectangles *foot, tn_solids *solids, tn_error *error)
+/* A room that is open to its roof has no deck below that, but where what stands above it leaves one. */
+static tn_status put_decks(const tn_house *house, const tn_parcel *decked, const tn_parcel *land, bool open,
+                           tn_solids *solids, tn_error *error)
 {
-    int64_t level = house->form->level[house->cells[land->cell].storey + 1];
-    tn_rectangles inside = {0}, solid = {0}, slab = {0}, deck = {0};
-    tn_status status = tn_roof_inside(house, land->cell, foot, &inside, error);
-    if (status == TN_OK)
-        status = tn_region_cut(&decked->own, &land->own, &deck, error);
-    if (status == TN_OK)
-        status = tn_region_cut(&land->own, &inside, &solid, error);
-    if (status == TN_OK)
-        status = tn_region_cut(&land->own, &solid, &slab, error);
+    tn_rectangles deck = {0};
+    if (!open)
+        return put_deck(house, land->cell, &decked->own, solids, error);
+    tn_status status = tn_region_cut(&decked->own, &land->own, &deck, error);
     if (status == TN_OK)
         status = put_deck(house, land->cell, &deck, solids, error);
-    if (status == TN_OK)
-        status = put_roof(house, land->cell, &solid, false, level - house->form->record->deck, solids, error);
-    if (status == TN_OK)
-        status = put_roof(house, land->cell, &slab, true, level, solids, error);
-    free(inside.items);
-    free(solid.items);
-    free(slab.items);
     free(deck.items);
     return status;
 }
 
+/* The deck, the slab and the walls between them; without a deck these go up from the walls of the storey. */
 static tn_status put_parcel(const tn_house *house, const tn_parcel *decked, const tn_parcel *land,
                             const tn_rectangles *foot, tn_solids *solids, tn_error *error)
 {
-    const tn_cell *cell = &house->cells[land->cell];
-    const tn_shape_record *shape = tn_house_shape(house, cell->zone, TN_CHOICE_ROOF);
-    if (shape && shape->flags & TN_ROOF_OPEN)
-        return put_open(house, decked, land, foot, solids, error);
-    tn_status status = put_deck(house, land->cell, &decked->own, solids, error);
-    return status == TN_OK
-               ? put_roof(house, land->cell, &land->own, false, house->form->level[cell->storey + 1], solids, error)
-               : status;
+    bool open = tn_cell_is_open_above(house, land->cell);
+    int64_t base = house->form->level[house->cells[land->cell].storey + 1] - (open ? house->form->record->deck : 0);
+    tn_rectangles walls = {0}, empty = {0};
+    tn_status status = put_decks(house, decked, land, open, solids, error);
+    if (status == TN_OK)
+        status = tn_roof_walls(house, land, foot, &walls, &empty, error);
+    if (status == TN_OK)
+        status = put_over(house, land->cell, &walls, &base, solids, error);
+    if (status == TN_OK)
+        status = put_over(house, land->cell, &empty, NULL, solids, error);
+    free(walls.items);
+    free(empty.items);
+    return status;
 }
 
 /* The roofs over the cells of a storey that end their stacks. */

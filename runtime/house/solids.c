@@ -6,32 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static tn_int128 gcd(tn_int128 a, tn_int128 b)
-{
-    while (b) {
-        tn_int128 rest = a % b;
-        a = b;
-        b = rest;
-    }
-    return a < 0 ? -a : a;
-}
-
-tn_fraction tn_fraction_new(tn_int128 top, tn_int128 bottom)
-{
-    tn_int128 common = gcd(top, bottom);
-    return (tn_fraction){top / common, bottom / common};
-}
-
-double tn_fraction_value(tn_fraction fraction)
-{
-    tn_int128 whole = fraction.top / fraction.bottom, rest = fraction.top % fraction.bottom;
-    return (double)whole + (double)rest / (double)fraction.bottom;
-}
-
 const char *tn_solid_kind_text(tn_solid_kind kind)
 {
     static const char *const words[] = {"outside", "party", "partition", "post", "deck",  "roofdeck",
-                                        "item",    "roof",  "pane",      "leaf", "flight", "guard"};
+                                        "item",    "roof",  "pane",      "leaf", "flight", "guard", "gable"};
     return words[kind];
 }
 
@@ -285,6 +263,6 @@ void tn_solids_clear(tn_solids *solids)
 {
     free(solids->boxes);
     free(solids->prisms);
-    free(solids->points);
+    free(solids->corners);
     *solids = (tn_solids){0};
 }

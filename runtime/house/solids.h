@@ -1,22 +1,13 @@
-/* The solids of a house: boxes, and roofs as prisms along x. Disjoint, without gaps, exact (docs/houses.md).
+/* The solids of a house: boxes, and prisms of roofs. Disjoint, without gaps, exact (docs/houses.md).
  *
- * A tn_solids owns its arrays; free them with tn_solids_clear. Coordinates are nanometres, those of roofs exact
+ * A tn_solids owns its arrays; free them with tn_solids_clear. Coordinates are nanometres, those of prisms exact
  * fractions.
  */
 #ifndef TARTAN_HOUSE_SOLIDS_H
 #define TARTAN_HOUSE_SOLIDS_H
 
-#include "runtime/base/int128.h"
 #include "runtime/base/length.h"
-#include "runtime/house/house.h"
-
-/* top / bottom, in lowest terms, bottom > 0. */
-typedef struct tn_fraction {
-    tn_int128 top, bottom;
-} tn_fraction;
-
-tn_fraction tn_fraction_new(tn_int128 top, tn_int128 bottom);
-double tn_fraction_value(tn_fraction fraction); /* the nearest, but for rounding twice */
+#include "runtime/house/slopes.h"
 
 typedef enum tn_solid_kind {
     TN_SOLID_OUTSIDE,
@@ -26,11 +17,12 @@ typedef enum tn_solid_kind {
     TN_SOLID_DECK,
     TN_SOLID_ROOFDECK,
     TN_SOLID_ITEM,
-    TN_SOLID_ROOF,
+    TN_SOLID_ROOF,  /* the slab of a roof */
     TN_SOLID_PANE,   /* of windows: runtime/house/model/model.h adds them and leaves */
     TN_SOLID_LEAF,   /* of doors */
     TN_SOLID_FLIGHT, /* a step or landing */
     TN_SOLID_GUARD,
+    TN_SOLID_GABLE, /* wall below the slab of a roof, above the storey */
     TN_SOLID_COUNT
 } tn_solid_kind;
 
@@ -45,19 +37,22 @@ typedef struct tn_solid {
     tn_box at;
 } tn_solid;
 
-/* y: across the ridge; x where that goes across the row. */
-typedef struct tn_roof_point {
-    tn_fraction y, z;
-} tn_roof_point;
+/* A corner of a prism in plan, and how far it is solid there: from `low` up to `high`, which may be the same. */
+typedef struct tn_prism_corner {
+    tn_fraction x, y, low, high;
+} tn_prism_corner;
 
-/* A roof from `from` to `to` along its ridge, which runs in x, or in y where it goes `across`: below the line through
- * its points, which go from the back to the front or from the left to the right. It is solid down to `base`, or, where
- * `slab` is not 0, so thick upright. */
+/* Upright over a convex polygon in plan, whose corners go counter-clockwise seen from above; below and above it ends in
+ * planes. A roof slab is so thick upright all over; a wall below one is level below. Over one facet of a roof: `plane` is
+ * its plane's number among those of the cell's roof, which rises `rise` for each unit along its slope. over: the
+ * rectangle that the facet is cut from. */
 typedef struct tn_prism {
+    tn_solid_kind kind;
     uint32_t of; /* a cell */
-    bool across;
-    int64_t from, to, base, slab;
-    size_t point_first, point_count;
+    size_t plane;
+    tn_fraction rise;
+    tn_rectangle over;
+    size_t corner_first, corner_count;
 } tn_prism;
 
 typedef struct tn_solids {
@@ -65,8 +60,8 @@ typedef struct tn_solids {
     size_t box_count, box_room;
     tn_prism *prisms;
     size_t prism_count, prism_room;
-    tn_roof_point *points;
-    size_t point_count, point_room;
+    tn_prism_corner *corners;
+    size_t corner_count, corner_room;
 } tn_solids;
 
 tn_status tn_house_solids(const tn_house *house, tn_solids *solids, tn_error *error);
@@ -135,22 +130,6 @@ tn_status tn_house_roofs(const tn_house *house, const tn_rectangles *decks, cons
 
 /* ---- lower.c */
 
-#define TN_PROFILE_MAX 17u
-
-/* The line of a roof above its slab, across its ridge: heights at places between which it is straight. Both are in
- * fractions of a common bottom. */
-typedef struct tn_profile {
-    tn_int128 y[TN_PROFILE_MAX], z[TN_PROFILE_MAX];
-    tn_int128 y_bottom, z_bottom;
-    size_t count;
-} tn_profile;
-
-tn_profile tn_roof_profile(const tn_house *house, const tn_cell *cell);
-
-/* The line's height at a place, above `base`; beyond its ends it goes straight on. `y` is in the profile's fractions.
- */
-tn_fraction tn_profile_height(const tn_profile *profile, tn_int128 y, int64_t base);
-
 /* Is it the highest cell of its stack? */
 bool tn_cell_is_top(const tn_house *house, uint32_t cell);
 
@@ -183,8 +162,9 @@ tn_length_style tn_house_length_style(const tn_house *house);
 
 /* ---- roof.c */
 
-/* A roof of a cell over a rectangle. slab: without what is below its slab. base: how far down it is solid otherwise. */
-tn_status tn_roof_put(const tn_house *house, uint32_t cell, tn_rectangle r, bool slab, int64_t base, tn_solids *solids,
+/* Puts the slab of a cell's roof over a rectangle; with a wall below it, from the level `base` up, if that is not NULL.
+ */
+tn_status tn_roof_put(const tn_house *house, uint32_t cell, tn_rectangle r, const int64_t *base, tn_solids *solids,
                       tn_error *error);
 
 /* ---- eaves.c */
@@ -200,9 +180,17 @@ typedef struct tn_parcel {
 tn_status tn_roof_eaves(const tn_house *house, const tn_parcel *land, size_t count, tn_rectangles *taken,
                         tn_solids *solids, tn_error *error);
 
-/* What of a cell's rectangle has nothing below the slab of its roof: not where walls stand, nor beside other roofs. */
-tn_status tn_roof_inside(const tn_house *house, uint32_t cell, const tn_rectangles *foot, tn_rectangles *inside,
-                         tn_error *error);
+/* ---- under.c */
+
+/* Is the highest cell of a stack open up to its roof? */
+bool tn_cell_is_open_above(const tn_house *house, uint32_t cell);
+
+/* Where walls stand below the slab of a cell's roof, of what that covers: above outside and party walls, and where the
+ * roof ends or another begins; if the room is open to its roof, above all walls and posts (`foot`). Appends the
+ * rectangles with walls, and those without. */
+tn_status tn_roof_walls(const tn_house *house, const tn_parcel *land, const tn_rectangles *foot, tn_rectangles *walls,
+                        tn_rectangles *empty, tn_error *error);
+
 tn_status tn_solids_add(tn_solids *solids, tn_solid solid, tn_error *error);
 
 /* What a cell covers: its rectangle, grown by half a wall. */

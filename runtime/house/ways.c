@@ -136,37 +136,88 @@ static tn_status add_posts(const tn_house *house, uint32_t cell, tn_cell_floor *
     return status;
 }
 
-/* Is the underside of a roof lower than the headroom at a place across its ridge? */
-static bool is_low(const tn_profile *profile, tn_int128 y, int64_t base, int64_t headroom)
+/* Where nobody can stand upright under one height of a roof, in a clear rectangle: strips across its slope. */
+typedef struct tn_low_strips {
+    tn_rectangle items[2];
+    size_t count;
+} tn_low_strips;
+
+/* What of a roof is lower than the headroom is looked for along one axis, in the middle of the other. */
+typedef struct tn_lowness {
+    tn_slopes slopes;
+    bool in_x;
+    int64_t height, headroom; /* of the foot of its slab */
+} tn_lowness;
+
+/* Is the underside of the roof lower than the headroom at a place across its ridge? */
+static bool is_low(const tn_lowness *of, int64_t at)
 {
-    tn_fraction height = tn_profile_height(profile, y, base);
-    return height.top < headroom * height.bottom;
+    tn_fraction place = tn_fraction_whole(at);
+    return tn_fraction_less(tn_slopes_at(&of->slopes, place, place, of->height), tn_fraction_whole(of->headroom));
 }
 
 /* The first place from `low` on, or (up) the last one before `high`, where that is not so; whole, rounded away from
- * where one can stand. The line of a roof rises from its lower ends, so that one search finds it. */
-static int64_t end_of_low(const tn_profile *profile, int64_t low, int64_t high, bool up, int64_t base, int64_t headroom)
+ * where one can stand. A roof rises from its lower ends, so that one search finds it. */
+static int64_t end_of_low(const tn_lowness *of, int64_t low, int64_t high, bool up)
 {
     while (high - low > 1) {
         int64_t middle = low + (high - low) / 2;
-        bool is = is_low(profile, (tn_int128)middle * profile->y_bottom, base, headroom);
-        *(is == up ? &high : &low) = middle;
+        *(is_low(of, middle) == up ? &high : &low) = middle;
     }
     return up ? low : high;
 }
 
-/* The highest place of the roof over a stretch across the ridge. */
-static int64_t crest_of(const tn_profile *profile, int64_t from, int64_t to)
+/* The highest place of the roof between two places across its ridge: one of them, or the middle of the cell. */
+static int64_t crest_of(const tn_lowness *of, int64_t from, int64_t to, int64_t middle)
 {
-    size_t best = 0;
-    for (size_t i = 1; i < profile->count; i++)
-        if (profile->z[i] > profile->z[best])
-            best = i;
-    tn_int128 at = profile->y[best] / profile->y_bottom;
-    return at < from ? from : at > to ? to : (int64_t)at;
+    const int64_t places[3] = {from, middle < from ? from : middle > to ? to : middle, to};
+    int64_t best = from;
+    tn_fraction most = {0, 1};
+    for (int i = 0; i < 3; i++) {
+        tn_fraction at = tn_fraction_whole(places[i]), height = tn_slopes_at(&of->slopes, at, at, of->height);
+        if (i > 0 && !tn_fraction_less(most, height))
+            continue;
+        most = height;
+        best = places[i];
+    }
+    return best;
 }
 
-/* Under an open roof, the strips at its lower ends where nobody can stand upright. */
+static tn_low_strips low_strips(const tn_lowness *of, const tn_rectangle *cell, const tn_rectangle *clear)
+{
+    bool in_x = of->in_x;
+    int64_t from = in_x ? clear->x0 : clear->y0, to = in_x ? clear->x1 : clear->y1;
+    int64_t crest = crest_of(of, from, to, in_x ? (cell->x0 + cell->x1) / 2 : (cell->y0 + cell->y1) / 2);
+    tn_low_strips strips = {.items = {*clear, *clear}};
+    if (is_low(of, crest)) {
+        strips.count = 1;
+        return strips;
+    }
+    if (is_low(of, from)) {
+        tn_rectangle *strip = &strips.items[strips.count++];
+        *(in_x ? &strip->x1 : &strip->y1) = end_of_low(of, from, crest, false);
+    }
+    if (is_low(of, to)) {
+        tn_rectangle *strip = &strips.items[strips.count++];
+        *(in_x ? &strip->x0 : &strip->y0) = end_of_low(of, crest, to, true);
+    }
+    return strips;
+}
+
+/* The strips under one of the two heights of which a roof is the greater. */
+static tn_low_strips low_under(const tn_lowness *roof, size_t first, size_t count, const tn_rectangle *cell,
+                               const tn_rectangle *clear)
+{
+    tn_lowness one = *roof;
+    one.slopes.count = one.slopes.first = count;
+    for (size_t i = 0; i < count; i++)
+        one.slopes.items[i] = roof->slopes.items[first + i];
+    one.in_x = one.slopes.items[0].x != 0;
+    return low_strips(&one, cell, clear);
+}
+
+/* Under an open roof, where nobody can stand upright: strips at its lower ends, or where two gables cross, what strips
+ * under both of them have in common. */
 static tn_status add_roof(const tn_house *house, uint32_t index, tn_cell_floor *floor, tn_error *error)
 {
     const tn_cell *cell = &house->cells[index];
@@ -175,18 +226,20 @@ static tn_status add_roof(const tn_house *house, uint32_t index, tn_cell_floor *
             headroom = house->form->record->headroom;
     if (!shape || !(shape->flags & TN_ROOF_OPEN) || height >= headroom || !tn_cell_is_top(house, index))
         return TN_OK;
-    tn_profile profile = tn_roof_profile(house, cell);
-    bool across = shape->flags & TN_ROOF_ACROSS;
-    tn_rectangle low = floor->clear, high = floor->clear;
-    int64_t from = across ? low.x0 : low.y0, to = across ? low.x1 : low.y1, crest = crest_of(&profile, from, to);
-    if (is_low(&profile, (tn_int128)crest * profile.y_bottom, height, headroom))
-        return add_obstacle(floor, floor->clear, error);
-    bool before = is_low(&profile, (tn_int128)from * profile.y_bottom, height, headroom),
-         behind = is_low(&profile, (tn_int128)to * profile.y_bottom, height, headroom);
-    *(across ? &low.x1 : &low.y1) = before ? end_of_low(&profile, from, crest, false, height, headroom) : from;
-    *(across ? &high.x0 : &high.y0) = behind ? end_of_low(&profile, crest, to, true, height, headroom) : to;
-    tn_status status = before ? add_obstacle(floor, low, error) : TN_OK;
-    return status == TN_OK && behind ? add_obstacle(floor, high, error) : status;
+    tn_lowness roof = {.slopes = tn_roof_slopes(house, cell), .height = height, .headroom = headroom};
+    size_t first = roof.slopes.first, others = roof.slopes.count - first;
+    tn_low_strips low = low_under(&roof, 0, first, &cell->at, &floor->clear);
+    tn_low_strips also = {.items = {floor->clear}, .count = 1};
+    if (others > 0)
+        also = low_under(&roof, first, others, &cell->at, &floor->clear);
+    tn_status status = TN_OK;
+    for (size_t i = 0; i < low.count; i++)
+        for (size_t k = 0; status == TN_OK && k < also.count; k++) {
+            tn_rectangle common = tn_rectangles_common(&low.items[i], &also.items[k]);
+            if (common.x0 < common.x1 && common.y0 < common.y1)
+                status = add_obstacle(floor, common, error);
+        }
+    return status;
 }
 
 /* ---- a cell */

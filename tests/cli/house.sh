@@ -323,8 +323,10 @@ for s in house["solids"]:
     x0, x1, y0, y1, z0, z1 = s["box"]
     wanted += (x1 - x0) * (y1 - y0) * (z1 - z0)
 for r in house["roofs"]:
-    line = [(F(y), F(z) - r["base"]) for y, z in r["profile"]]
-    wanted += (r["x"][1] - r["x"][0]) * sum((b[0] - a[0]) * (a[1] + b[1]) / 2 for a, b in zip(line, line[1:]))
+    a, *rest = [[F(n) for n in corner] for corner in r["corners"]]
+    for b, c in zip(rest, rest[1:]):
+        plan = ((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])) / 2
+        wanted += plan * sum(p[3] - p[2] for p in (a, b, c)) / 3
 wanted += 36 * 48 * 25400000**3  # the window's pane
 closed = all(edges[b, a] == 1 == n for (a, b), n in edges.items())
 print(closed, abs(volume - wanted / 10**27) < F(1, 10**6))

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Needs the parts: mesh
-# Roofs at random, with eaves, open and across: the solids of houses are apart, and their meshes closed and as large.
+# Roofs at random, with eaves, open and across: the solids of houses are apart, their meshes closed and as large, and slabs and walls where
+# what roofs mean says.
 # Seeds 6 and 14 have lines of roofs that cross side by side, a step of the mesh apart.
 # Slow under sanitizers.
 name=house_roofs
@@ -17,6 +18,7 @@ for seed in ${TARTAN_SEEDS:-1 2 6 14}; do
         mkdir built
         "$TARTAN" house form.plan "$line" -o built/house.json -o built/house.parts.csv -o built/house.obj </dev/null
         is "solids of form $seed, $line" "$(python3 -B "$tests/house_solids.py" built)" fine
+        is "roofs of form $seed, $line" "$(python3 -B "$tests/house_slabs.py" built/house.json form.plan)" fine
     done <lines
 done
 finish

@@ -37,7 +37,7 @@ done
 
 looked "$files/gallery.plan" "$("$TARTAN" sample "$files/gallery.plan" 1 --library inns --seed 2)" 'a gallery'
 
-# Gable ends are of the walls below; of the roof itself only slabs end upright.
+# Gable ends are walls below the slab, which ends upright above them.
 "$TARTAN" house "$files/cabins.plan" "14' room:14' none ; 1 gable(9:12) 1 flat ; living ; window window window" -o "$scratch/cottage.obj" 2>/dev/null || fail 'no cottage'
 is 'gable ends' "$(python3 - "$scratch/cottage.obj" <<'PY'
 import collections, sys
@@ -54,7 +54,7 @@ for line in open(sys.argv[1]):
             ends[group] += 1
 print(*sorted(ends))
 PY
-)" outside
+)" 'gable roof'
 
 # A roof whose heights are no whole nanometres is one plane over rooms and walls: no corners a few nanometres apart, which draw a line.
 cat >"$scratch/lean-to.plan" <<'PLAN'

@@ -1,4 +1,5 @@
-/* A cell: a box, perhaps clipped by one plane. Plain values; faces are counter-clockwise seen from outside. */
+/* A cell: a convex part of a box, often all of it, or a box clipped by one plane. Faces that are in no plane of the box
+ * are caps. Plain values; faces are counter-clockwise seen from outside. */
 #ifndef TARTAN_GEOMETRY_CUT_BOX_H
 #define TARTAN_GEOMETRY_CUT_BOX_H
 

@@ -117,7 +117,7 @@ static int64_t divisor_of(int64_t a, int64_t b)
     return a;
 }
 
-/* Two vertices that differ in one coordinate, or in two: an edge of a cell lies in a face of its box. */
+/* Two vertices that differ in one coordinate, or in two where an edge of a cell lies in a face of its box. */
 uint32_t tn_grid_line_through(tn_grid *grid, uint32_t from, uint32_t to)
 {
     if (grid->failed)
@@ -132,6 +132,9 @@ uint32_t tn_grid_line_through(tn_grid *grid, uint32_t from, uint32_t to)
     if (differ == 1)
         return line_of(grid,
                        (tn_grid_line){.kind = (uint32_t)along, .p = p[along == 0 ? 1 : 0], .q = p[along == 2 ? 1 : 2]});
+    if (differ == 3)
+        return line_of(
+            grid, (tn_grid_line){.kind = TN_GRID_FREE, .p = from < to ? from : to, .q = from < to ? to : from});
     int u = (level + 1) % 3, v = (level + 2) % 3;
     int64_t a = p[v] - q[v], b = q[u] - p[u], divisor = divisor_of(a, b);
     if (a < 0 || (a == 0 && b < 0))

@@ -11,7 +11,9 @@
 
 /* A line along an axis (kind 0, 1, 2: the two other coordinates, by number of axis, are p and q), or one that lies in a
  * plane across axis kind - 3 at coordinate p: a * u + b * v = c there, with u and v the next two axes; a and b have no
- * common divisor and a > 0, or a = 0 and b > 0. */
+ * common divisor and a > 0, or a = 0 and b > 0. TN_GRID_FREE: in no such plane, from vertex p to vertex q, p < q; caps
+ * alone have edges along such lines, and those that meet there have whole edges in common. */
+#define TN_GRID_FREE 6u
 typedef struct tn_grid_line {
     uint32_t kind;
     int64_t p, q, a, b;
@@ -99,7 +101,8 @@ tn_grid_point tn_grid_crossing(tn_grid *grid, int axis, int64_t w, uint32_t one,
 /* Appends a polygon of the boundary. */
 void tn_grid_add_ring(tn_grid *grid, const tn_ring_corner *corners, uint32_t count, uint32_t cell, uint32_t face);
 
-/* The polygons of cells' faces in all planes less those that lie against them; caps as they are. */
+/* The polygons of cells' faces in all planes less those that lie against them; caps as they are, but for those that are
+ * each other's other side. */
 void tn_grid_planes(tn_grid *grid, const tn_cut_box *cells, size_t count);
 
 /* The boundary's triangles, from its polygons. */

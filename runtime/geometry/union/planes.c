@@ -254,17 +254,20 @@ static void take_away(planes *p, const flat *face, piece one)
     }
 }
 
-/* Bounds of a piece, as far as they are known: rounded. */
+/* Does a piece lie beside the bounds of a face? It may touch them with corners of a cell; others are known as far as
+ * they are rounded. What only touches is not to be cut: lines that nearly go on in each other would cross nearby. */
 static bool apart(const planes *p, piece one, const flat *face)
 {
     int u = ((int)face->axis + 1) % 3, v = ((int)face->axis + 2) % 3;
     bool left = true, right = true, below = true, above = true;
     for (uint32_t k = 0; k < one.count; k++) {
-        const int64_t *at = p->grid->vertices[p->cut[one.first + k].point.vertex].at;
-        left &= at[u] < face->low_u;
-        right &= at[u] > face->high_u;
-        below &= at[v] < face->low_v;
-        above &= at[v] > face->high_v;
+        const tn_grid_point *point = &p->cut[one.first + k].point;
+        const int64_t *at = p->grid->vertices[point->vertex].at;
+        int64_t over = point->one == TN_NOTHING ? 1 : 0;
+        left &= at[u] < face->low_u + over;
+        right &= at[u] > face->high_u - over;
+        below &= at[v] < face->low_v + over;
+        above &= at[v] > face->high_v - over;
     }
     return left || right || below || above;
 }
@@ -448,11 +451,75 @@ static void cover_planes(planes *p)
     }
 }
 
+/* ---- caps */
+
+/* A cap by its vertices, the lowest of them first. */
+typedef struct cap {
+    uint32_t ring, count;
+    uint32_t vertices[8];
+} cap;
+
+static int by_number(const void *a, const void *b)
+{
+    uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+    return (x > y) - (x < y);
+}
+
+static int by_vertices(const void *a, const void *b)
+{
+    const cap *x = a, *y = b;
+    if (x->count != y->count)
+        return x->count < y->count ? -1 : 1;
+    for (uint32_t i = 0; i < x->count; i++)
+        if (x->vertices[i] != y->vertices[i])
+            return x->vertices[i] < y->vertices[i] ? -1 : 1;
+    return (x->ring > y->ring) - (x->ring < y->ring);
+}
+
+static cap cap_of(const tn_grid *grid, uint32_t ring)
+{
+    cap one = {.ring = ring, .count = grid->rings[ring].count};
+    for (uint32_t i = 0; i < one.count; i++)
+        one.vertices[i] = grid->corners[grid->rings[ring].first + i].point.vertex;
+    qsort(one.vertices, one.count, sizeof *one.vertices, by_number);
+    return one;
+}
+
+/* Two cells that lie against each other along a cap have the whole of it in common: neither is of the boundary. All
+ * rings are caps so far. */
+static void drop_pairs(tn_grid *grid)
+{
+    cap *caps = malloc((grid->ring_count + 1) * sizeof *caps);
+    bool *dropped = calloc(grid->ring_count + 1, sizeof *dropped);
+    grid->failed |= !caps || !dropped;
+    if (!grid->failed) {
+        size_t kept = 0;
+        for (uint32_t i = 0; i < grid->ring_count; i++)
+            caps[i] = cap_of(grid, i);
+        qsort(caps, grid->ring_count, sizeof *caps, by_vertices);
+        for (size_t i = 0; i + 1 < grid->ring_count; i++) {
+            const cap *one = &caps[i], *next = &caps[i + 1];
+            bool same = one->count == next->count &&
+                        memcmp(one->vertices, next->vertices, one->count * sizeof *one->vertices) == 0;
+            if (same && !dropped[one->ring])
+                dropped[one->ring] = dropped[next->ring] = true;
+        }
+        for (size_t i = 0; i < grid->ring_count; i++)
+            if (!dropped[i])
+                grid->rings[kept++] = grid->rings[i];
+        grid->ring_count = kept;
+    }
+    free(caps);
+    free(dropped);
+}
+
 void tn_grid_planes(tn_grid *grid, const tn_cut_box *cells, size_t count)
 {
     planes p = {.grid = grid};
     for (size_t i = 0; i < count && !grid->failed; i++)
         add_cell(&p, &cells[i], (uint32_t)i);
+    if (!grid->failed)
+        drop_pairs(grid);
     if (!grid->failed && p.flat_count)
         cover_planes(&p);
     free(p.flats);

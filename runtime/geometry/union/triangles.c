@@ -29,8 +29,8 @@ typedef struct outline {
 /* The axis along which it moves fastest. */
 static int leading_axis(const tn_grid_line *line)
 {
-    if (line->kind < 3)
-        return (int)line->kind;
+    if (line->kind < 3 || line->kind == TN_GRID_FREE)
+        return (int)line->kind % 3;
     int u = ((int)line->kind - 3 + 1) % 3, v = ((int)line->kind - 3 + 2) % 3;
     int64_t a = line->a, b = line->b < 0 ? -line->b : line->b;
     return b >= a ? u : v;
@@ -42,7 +42,7 @@ static int along(const tn_grid *grid, uint32_t line, uint32_t x, uint32_t y)
     const tn_grid_line *l = &grid->lines[line];
     const int64_t *p = grid->vertices[x].at, *q = grid->vertices[y].at;
     int lead = leading_axis(l);
-    if (p[lead] != q[lead] || l->kind < 3)
+    if (p[lead] != q[lead] || l->kind < 3 || l->kind == TN_GRID_FREE)
         return (p[lead] > q[lead]) - (p[lead] < q[lead]);
     int u = ((int)l->kind - 3 + 1) % 3, v = ((int)l->kind - 3 + 2) % 3, second = lead == u ? v : u;
     int rising = (l->a > 0) == (l->b > 0) ? -1 : 1;

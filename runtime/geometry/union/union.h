@@ -1,5 +1,6 @@
-/* The boundary of a union of cells whose boxes do not overlap, without booleans of solids: such cells share area on
- * faces of boxes only, so that each plane of faces is worked out by itself, with polygons in that plane.
+/* The boundary of a union of cells that do not overlap, without booleans of solids. They share area on faces of their
+ * boxes, so that each plane of faces is worked out by itself, with polygons in that plane; or on caps, but then they have
+ * the whole cap in common. (Cells whose boxes do not overlap share no area on caps.)
  *
  * Coordinates are taken as whole numbers of a step, at most 2^52 of them from 0, so that a double holds each. Which
  * side of a line a point is on is decided exactly, where two lines cross is rounded once, to a step; so the boundary is

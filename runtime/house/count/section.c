@@ -116,12 +116,11 @@ static uint32_t roof_seen(const tn_house *house, uint32_t zone, uint32_t shape)
     uint32_t storeys = storeys_of(house, zone);
     tn_cell cell = {.zone = zone, .storey = storeys - 1};
     cell.at = (tn_rectangle){0, longest(form->schema, form->width), 0, longest(form->schema, zone)};
-    tn_profile profile = tn_roof_profile(house, &cell); /* of the largest cell: no other is higher */
-    tn_int128 base = (tn_int128)form->level[storeys] + form->record->roof, rise = 0;
-    for (size_t i = 0; i < profile.count; i++)
-        rise = profile.z[i] > rise ? profile.z[i] : rise;
+    tn_slopes slopes = tn_roof_slopes(house, &cell); /* of the largest cell: no other is higher */
+    int64_t base = form->level[storeys] + form->record->roof;
+    tn_fraction top = tn_slopes_highest(&slopes, tn_cell_grown(house, &cell), base);
     uint32_t below = sills_below(form, storeys, base, 1);
-    bool alike = below == sills_below(form, storeys, base * profile.z_bottom + rise, profile.z_bottom);
+    bool alike = below == sills_below(form, storeys, top.top, top.bottom);
     return alike ? UINT32_MAX - below : shape;
 }
 

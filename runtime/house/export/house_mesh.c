@@ -12,8 +12,8 @@ static const unsigned char part_colours[TN_SOLID_COUNT][3] = {
     [TN_SOLID_OUTSIDE] = {240, 238, 232}, [TN_SOLID_PARTY] = {240, 238, 232},  [TN_SOLID_PARTITION] = {250, 249, 246},
     [TN_SOLID_POST] = {240, 238, 232},    [TN_SOLID_DECK] = {222, 210, 190},   [TN_SOLID_ROOFDECK] = {222, 210, 190},
     [TN_SOLID_ITEM] = {205, 170, 125},    [TN_SOLID_ROOF] = {110, 120, 132},   [TN_SOLID_PANE] = {170, 208, 232},
-    [TN_SOLID_LEAF] = {176, 92, 60},      [TN_SOLID_FLIGHT] = {205, 186, 150},
-    [TN_SOLID_GUARD] = {150, 132, 112},
+    [TN_SOLID_LEAF] = {176, 92, 60},      [TN_SOLID_FLIGHT] = {205, 186, 150}, [TN_SOLID_GUARD] = {150, 132, 112},
+    [TN_SOLID_GABLE] = {240, 238, 232},
 };
 
 void tn_house_mesh_colours(const tn_house_form *form, unsigned char colours[TN_HOUSE_GROUPS_MAX][3])
@@ -35,11 +35,8 @@ static uint32_t group_of(const tn_house *house, const tn_house_block *b)
 
 static void group_blocks(const tn_house *house, tn_blocks *blocks)
 {
-    for (size_t i = 0; tn_form_has_costs(house->form) && i < blocks->count; i++) {
-        tn_house_block *b = &blocks->items[i], end = tn_block_end(b);
-        b->group = group_of(house, b);
-        b->end_group = group_of(house, &end);
-    }
+    for (size_t i = 0; tn_form_has_costs(house->form) && i < blocks->count; i++)
+        blocks->items[i].group = group_of(house, &blocks->items[i]);
 }
 
 static tn_status name_groups(const tn_house_form *form, tn_mesh *mesh, tn_error *error)

@@ -55,17 +55,51 @@ static double area_of(tn_rectangle r)
     return (double)(r.x1 - r.x0) * (double)(r.y1 - r.y0) / 1e18;
 }
 
-/* The clear box of a cell, above the floor of the storey at hand. */
-static unsigned put_cell(tn_ifc *ifc, uint32_t cell)
+/* A polygon of the plan from one level to the underside of a roof. */
+static unsigned put_facet(tn_ifc *ifc, const tn_slopes *slopes, const tn_facet *facet, double from, int64_t foot)
 {
-    const tn_cell *c = &ifc->house->cells[cell];
+    tn_block_corner corners[TN_FACET_CORNERS];
+    for (size_t i = 0; i < facet->count; i++) {
+        const tn_fraction *at = facet->at[i];
+        corners[i] = (tn_block_corner){tn_fraction_value(at[0]), tn_fraction_value(at[1]), from,
+                                       tn_fraction_value(tn_slope_at(slopes, facet->plane, at[0], at[1], foot))};
+    }
+    return tn_stepfile_prism(&ifc->step, corners, facet->count);
+}
+
+/* The clear room of a cell, above the floor of the storey at hand: up to the deck, or to the slab of an open roof.
+ * faceted: the room has such a roof somewhere. */
+static void put_cell(tn_ifc *ifc, uint32_t cell, bool faceted, tn_stepfile_list *solids)
+{
     const tn_house_form *form = ifc->house->form;
+    const tn_cell *c = &ifc->house->cells[cell];
     tn_rectangle r = tn_cell_clear(ifc->house, cell);
-    double floor = (double)(form->level[c->storey] - form->level[ifc->storey]);
-    double from = c->open ? floor - (double)form->record->deck : floor; /* a void goes through the deck */
-    const double low[3] = {(double)r.x0, (double)r.y0, from},
-                 high[3] = {(double)r.x1, (double)r.y1, floor + (double)tn_form_clear(form, c->storey)};
-    return tn_stepfile_solid(&ifc->step, low, high);
+    bool open = tn_cell_is_open_above(ifc->house, cell);
+    int64_t ground = form->level[ifc->storey], floor = form->level[c->storey] - ground;
+    int64_t from = c->open ? floor - form->record->deck : floor; /* a void goes through the deck */
+    tn_slopes slopes = {.items = {{0, 0, 0}}, .count = 1, .first = 1, .bottom = 1};
+    int64_t foot = open ? form->level[c->storey + 1] - ground : floor + tn_form_clear(form, c->storey);
+    tn_facet facets[TN_FACETS_MAX];
+    if (!faceted) {
+        const double low[3] = {(double)r.x0, (double)r.y0, (double)from},
+                     high[3] = {(double)r.x1, (double)r.y1, (double)foot};
+        tn_stepfile_list_add(solids, tn_stepfile_solid(&ifc->step, low, high));
+        return;
+    }
+    if (open)
+        slopes = tn_roof_slopes_of(ifc->house, cell);
+    size_t count = tn_slopes_cut(&slopes, r, facets);
+    for (size_t i = 0; i < count; i++)
+        tn_stepfile_list_add(solids, put_facet(ifc, &slopes, &facets[i], (double)from, foot));
+}
+
+/* Is some cell of a room open to a roof? */
+static bool is_faceted(const tn_ifc *ifc, uint32_t room)
+{
+    for (uint32_t i = room; i < ifc->house->cell_count; i++)
+        if (ifc->rooms[i] == room && tn_cell_is_open_above(ifc->house, i))
+            return true;
+    return false;
 }
 
 static void put_areas(tn_ifc *ifc, unsigned space, uint32_t room, double gross, double net)
@@ -85,14 +119,16 @@ static void put_space(tn_ifc *ifc, uint32_t room, tn_stepfile_list *list)
     tn_stepfile *step = &ifc->step;
     tn_stepfile_list solids = {0};
     double gross = 0, net = 0;
+    bool faceted = is_faceted(ifc, room);
     for (uint32_t i = room; i < house->cell_count; i++) {
         if (ifc->rooms[i] != room)
             continue;
-        tn_stepfile_list_add(&solids, put_cell(ifc, i));
+        put_cell(ifc, i, faceted, &solids);
         gross += house->cells[i].open ? 0 : area_of(house->cells[i].at);
         net += house->cells[i].open ? 0 : area_of(tn_cell_clear(house, i));
     }
-    unsigned shape = tn_stepfile_shape(step, tn_stepfile_list_text(&solids));
+    const char *text = tn_stepfile_list_text(&solids);
+    unsigned shape = faceted ? tn_stepfile_faceted(step, text) : tn_stepfile_shape(step, text);
     const char *function = tn_text(house->form->module, tn_form_rule(house->form, house->cells[room].function)->name);
     unsigned space = tn_stepfile_add(step, "IFCSPACE('%s',$,'%s',$,$,#%u,#%u,$,.ELEMENT.,.INTERNAL.,$)",
                                      tn_stepfile_guid(step, "space", room).text, tn_stepfile_text(function).text,
@@ -277,12 +313,11 @@ static bool is_turned(const tn_layering *layers)
     return layers->count > 0 && layers->axis == 0;
 }
 
-/* Keeps a part for its storey, and for what it is made of. */
-static void keep(tn_ifc *ifc, const tn_solid *s, unsigned part, tn_stepfile_list *list)
+/* Keeps a part for what it is made of. */
+static void keep_made(tn_ifc *ifc, const tn_solid *s, unsigned part)
 {
     const tn_form_record *form = ifc->house->form->record;
     tn_layering layers = tn_solid_layering(ifc->house, s->kind, s->of, s->item);
-    tn_stepfile_list_add(list, part);
     if (layers.count > 0) {
         tn_layers_lie lie = s->kind == TN_SOLID_POST                 ? LIE_ANYHOW
                             : layers.from_high == is_turned(&layers) ? LIE_ALONG
@@ -293,6 +328,13 @@ static void keep(tn_ifc *ifc, const tn_solid *s, unsigned part, tn_stepfile_list
     uint32_t material = tn_part_material(ifc->house, tn_solid_made_part(ifc->house, s->kind, s->of, s->item));
     uint32_t place = material == TN_NO_RECORD ? s->kind : TN_SOLID_COUNT + material - form->material_first;
     tn_stepfile_list_add(&ifc->made[place], part);
+}
+
+/* The same, and for its storey. */
+static void keep(tn_ifc *ifc, const tn_solid *s, unsigned part, tn_stepfile_list *list)
+{
+    keep_made(ifc, s, part);
+    tn_stepfile_list_add(list, part);
 }
 
 /* ---- walls */
@@ -459,56 +501,115 @@ static void put_box(tn_ifc *ifc, const tn_solid *s, unsigned number, tn_stepfile
 
 /* ---- roofs and stairs */
 
-static unsigned put_point(tn_stepfile *step, tn_fraction across, double height)
+/* Cubic metres. */
+static double prism_volume(const tn_prism_corner *c, size_t count)
 {
-    return tn_stepfile_add(step, "IFCCARTESIANPOINT((%s,%s))", tn_stepfile_mm(tn_fraction_value(across)).text,
-                           tn_stepfile_mm(height).text);
-}
-
-/* The end of a roof: below along its underside, and back along its line. Its axes are across the ridge and upwards. */
-static unsigned put_profile(tn_ifc *ifc, const tn_prism *p, double floor)
-{
-    tn_stepfile *step = &ifc->step;
-    const tn_roof_point *points = ifc->solids->points + p->point_first;
-    tn_stepfile_list line = {0};
-    unsigned first = 0;
-    for (size_t i = 0; i < p->point_count; i++) {
-        if (!p->slab && i > 0 && i + 1 < p->point_count)
-            continue;
-        double under = p->slab ? tn_fraction_value(points[i].z) - (double)p->slab : (double)p->base;
-        unsigned point = put_point(step, points[i].y, under - floor);
-        tn_stepfile_list_add(&line, point);
-        first = first ? first : point;
+    double six = 0;
+    for (size_t i = 1; i + 1 < count; i++) {
+        const tn_prism_corner *at[3] = {&c[0], &c[i], &c[i + 1]};
+        double x[3], y[3], high = 0;
+        for (int k = 0; k < 3; k++) {
+            x[k] = tn_fraction_value(at[k]->x) / 1e9;
+            y[k] = tn_fraction_value(at[k]->y) / 1e9;
+            high += (tn_fraction_value(at[k]->high) - tn_fraction_value(at[k]->low)) / 1e9;
+        }
+        six += ((x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])) * high;
     }
-    for (size_t i = p->point_count; i-- > 0;)
-        tn_stepfile_list_add(&line, put_point(step, points[i].y, tn_fraction_value(points[i].z) - floor));
-    tn_stepfile_list_add(&line, first);
-    const char *list = tn_stepfile_list_text(&line);
-    unsigned curve = tn_stepfile_add(step, "IFCPOLYLINE(%s)", list ? list : "()");
-    ifc->failed |= line.text.failed;
-    tn_stepfile_list_clear(&line);
-    return tn_stepfile_add(step, "IFCARBITRARYCLOSEDPROFILEDEF(.AREA.,$,#%u)", curve);
+    return six / 6;
 }
 
-/* A roof along x is extruded to the right, from its left end; one across the row to the back, from its front end. */
-static void put_roof(tn_ifc *ifc, unsigned number, tn_stepfile_list *list)
+static unsigned put_prism(tn_ifc *ifc, const tn_prism *prism)
+{
+    const tn_prism_corner *c = ifc->solids->corners + prism->corner_first;
+    double floor = (double)ifc->house->form->level[ifc->storey];
+    tn_block_corner corners[TN_FACET_CORNERS];
+    for (size_t i = 0; i < prism->corner_count; i++)
+        corners[i] =
+            (tn_block_corner){tn_fraction_value(c[i].x), tn_fraction_value(c[i].y),
+                              tn_fraction_value(c[i].low) - floor, tn_fraction_value(c[i].high) - floor};
+    return tn_stepfile_prism(&ifc->step, corners, prism->corner_count);
+}
+
+/* Does a prism belong to the same part: a slab is all that lies in one plane of a cell's roof, a wall what stands below
+ * it? */
+static bool is_part(const tn_prism *prism, const tn_prism *of)
+{
+    return prism->kind == of->kind && prism->of == of->of && (of->kind == TN_SOLID_GABLE || prism->plane == of->plane);
+}
+
+/* The part that begins with a prism; 0: it begins with one before. */
+static unsigned put_prisms(tn_ifc *ifc, size_t number)
 {
     tn_stepfile *step = &ifc->step;
-    const tn_prism *p = &ifc->solids->prisms[number];
-    unsigned profile = put_profile(ifc, p, (double)ifc->house->form->level[ifc->storey]);
-    unsigned y = tn_stepfile_add(step, "IFCDIRECTION((0.,%s,0.))", p->across ? "-1." : "1.");
-    unsigned axes = tn_stepfile_add(step, "IFCAXIS2PLACEMENT3D(#%u,#%u,#%u)", step->origin, p->across ? y : step->x,
-                                    p->across ? step->x : y);
-    char solid[16];
-    snprintf(solid, sizeof solid, "(#%u)",
-             tn_stepfile_add(step, "IFCEXTRUDEDAREASOLID(#%u,#%u,#%u,%s)", profile, axes, step->z,
-                             tn_stepfile_mm((double)(p->to - p->from)).text));
-    unsigned body = tn_stepfile_shape(step, solid),
-             where = tn_stepfile_placement(step, ifc->placement, p->across ? 0 : (double)p->from,
-                                           p->across ? (double)p->to : 0, 0);
-    unsigned roof = tn_stepfile_add(step, "IFCROOF('%s',$,'roof',$,$,#%u,#%u,$,.NOTDEFINED.)",
-                                    tn_stepfile_guid(step, "roof", number).text, where, body);
-    keep(ifc, &(tn_solid){.kind = TN_SOLID_ROOF, .of = p->of}, roof, list);
+    const tn_solids *solids = ifc->solids;
+    const tn_prism *first = &solids->prisms[number];
+    tn_stepfile_list pieces = {0};
+    double volume = 0;
+    for (size_t i = 0; i < number; i++)
+        if (is_part(&solids->prisms[i], first))
+            return 0;
+    for (size_t i = number; i < solids->prism_count; i++) {
+        const tn_prism *prism = &solids->prisms[i];
+        if (!is_part(prism, first))
+            continue;
+        tn_stepfile_list_add(&pieces, put_prism(ifc, prism));
+        volume += prism_volume(solids->corners + prism->corner_first, prism->corner_count);
+    }
+    bool roof = first->kind == TN_SOLID_ROOF;
+    unsigned body = tn_stepfile_faceted(step, tn_stepfile_list_text(&pieces)),
+             where = tn_stepfile_placement(step, ifc->placement, 0, 0, 0);
+    unsigned part =
+        tn_stepfile_add(step, "%s('%s',$,'%s',$,$,#%u,#%u,$,.%s.)", roof ? "IFCSLAB" : "IFCWALL",
+                        tn_stepfile_guid(step, tn_solid_kind_text(first->kind), (unsigned)number).text,
+                        tn_solid_kind_text(first->kind), where, body, roof ? "ROOF" : "SOLIDWALL");
+    put_volume(ifc, part, roof ? "Qto_SlabBaseQuantities" : "Qto_WallBaseQuantities", volume);
+    keep_made(ifc, &(tn_solid){.kind = first->kind, .of = first->of}, part);
+    ifc->failed |= pieces.text.failed;
+    tn_stepfile_list_clear(&pieces);
+    return part;
+}
+
+/* IfcRoofTypeEnum. */
+static const char *roof_type(const tn_shape_record *shape)
+{
+    switch (shape ? (tn_roof_kind)shape->roof : TN_ROOF_FLAT) {
+    case TN_ROOF_SHED_BACK:
+    case TN_ROOF_SHED_FRONT:
+        return "SHED_ROOF";
+    case TN_ROOF_GABLE:
+        return "GABLE_ROOF";
+    case TN_ROOF_VAULT:
+        return "BARREL_ROOF";
+    default:
+        return "FLAT_ROOF";
+    }
+}
+
+/* The roof of a zone above the storey at hand, which is made of slabs; and the walls below these. */
+static void put_roof(tn_ifc *ifc, uint32_t zone, tn_stepfile_list *list)
+{
+    tn_stepfile *step = &ifc->step;
+    tn_stepfile_list slabs = {0};
+    for (size_t i = 0; i < ifc->solids->prism_count; i++) {
+        const tn_prism *prism = &ifc->solids->prisms[i];
+        const tn_cell *cell = &ifc->house->cells[prism->of];
+        unsigned part = cell->storey == ifc->storey && cell->zone == zone ? put_prisms(ifc, i) : 0;
+        if (part)
+            tn_stepfile_list_add(prism->kind == TN_SOLID_ROOF ? &slabs : list, part);
+    }
+    unsigned number = zone * TN_STOREYS_MAX + ifc->storey;
+    const char *parts = tn_stepfile_list_text(&slabs);
+    if (parts) {
+        unsigned roof =
+            tn_stepfile_add(step, "IFCROOF('%s',$,'roof',$,$,#%u,$,$,.%s.)", tn_stepfile_guid(step, "roofs", number).text,
+                            tn_stepfile_placement(step, ifc->placement, 0, 0, 0),
+                            roof_type(tn_house_shape(ifc->house, zone, TN_CHOICE_ROOF)));
+        tn_stepfile_add(step, "IFCRELAGGREGATES('%s',$,$,$,#%u,%s)",
+                        tn_stepfile_guid(step, "slabs of roof", number).text, roof, parts);
+        tn_stepfile_list_add(list, roof);
+    }
+    ifc->failed |= slabs.text.failed;
+    tn_stepfile_list_clear(&slabs);
 }
 
 /* The steps and landings of a flight, as one shape; 0 where a stair has none. */
@@ -585,9 +686,8 @@ static void put_elements(tn_ifc *ifc, tn_stepfile_list *list)
         else if (!ifc->walls[s->of])
             put_wall(ifc, i, list);
     }
-    for (unsigned i = 0; i < ifc->solids->prism_count; i++)
-        if (ifc->house->cells[ifc->solids->prisms[i].of].storey == ifc->storey)
-            put_roof(ifc, i, list);
+    for (uint32_t z = 0; z < ifc->house->form->zone_count; z++)
+        put_roof(ifc, ifc->house->form->zones[z], list);
     put_stairs(ifc, list);
 }
 

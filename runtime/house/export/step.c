@@ -186,11 +186,75 @@ unsigned tn_stepfile_solid(tn_stepfile *step, const double low[3], const double 
                            tn_stepfile_mm(high[2] - low[2]).text);
 }
 
-unsigned tn_stepfile_shape(tn_stepfile *step, const char *solids)
+static unsigned put_shape(tn_stepfile *step, const char *kind, const char *solids)
 {
-    unsigned shape = tn_stepfile_add(step, "IFCSHAPEREPRESENTATION(#%u,'Body','SweptSolid',%s)", step->context,
+    unsigned shape = tn_stepfile_add(step, "IFCSHAPEREPRESENTATION(#%u,'Body','%s',%s)", step->context, kind,
                                      solids ? solids : "()");
     return tn_stepfile_add(step, "IFCPRODUCTDEFINITIONSHAPE($,$,(#%u))", shape);
+}
+
+unsigned tn_stepfile_shape(tn_stepfile *step, const char *solids)
+{
+    return put_shape(step, "SweptSolid", solids);
+}
+
+unsigned tn_stepfile_faceted(tn_stepfile *step, const char *solids)
+{
+    return put_shape(step, "Tessellation", solids);
+}
+
+/* The points of a prism, and the number of each among them: where it is not solid, both of a corner are one. */
+typedef struct prism_points {
+    unsigned low[TN_FACET_CORNERS], high[TN_FACET_CORNERS], count;
+    tn_buffer text;
+} prism_points;
+
+static unsigned put_point(prism_points *points, const tn_block_corner *corner, double z)
+{
+    tn_buffer_printf(&points->text, "%s(%s,%s,%s)", points->count ? "," : "", tn_stepfile_mm(corner->x).text,
+                     tn_stepfile_mm(corner->y).text, tn_stepfile_mm(z).text);
+    return ++points->count;
+}
+
+/* Adds a face without the points that follow themselves, if it has an area. */
+static void put_face(tn_stepfile *step, const unsigned *ring, size_t count, tn_stepfile_list *faces)
+{
+    char text[12 * TN_FACET_CORNERS] = "";
+    size_t size = 0, kept = 0;
+    for (size_t i = 0; i < count; i++)
+        if (ring[i] != ring[(i + 1) % count]) {
+            size += (size_t)snprintf(text + size, sizeof text - size, "%s%u", kept ? "," : "", ring[i]);
+            kept++;
+        }
+    if (kept >= 3)
+        tn_stepfile_list_add(faces, tn_stepfile_add(step, "IFCINDEXEDPOLYGONALFACE((%s))", text));
+}
+
+unsigned tn_stepfile_prism(tn_stepfile *step, const tn_block_corner *corners, size_t count)
+{
+    prism_points points = {.count = 0};
+    tn_stepfile_list faces = {0};
+    unsigned bottom[TN_FACET_CORNERS] = {0};
+    for (size_t i = 0; i < count; i++) {
+        const tn_block_corner *corner = &corners[i];
+        points.low[i] = put_point(&points, corner, corner->low);
+        points.high[i] = corner->high > corner->low ? put_point(&points, corner, corner->high) : points.low[i];
+        bottom[count - 1 - i] = points.low[i];
+    }
+    unsigned at = tn_stepfile_add(step, "IFCCARTESIANPOINTLIST3D((%s))", points.text.data ? points.text.data : "");
+    put_face(step, bottom, count, &faces);
+    put_face(step, points.high, count, &faces);
+    for (size_t i = 0; i < count; i++) {
+        size_t next = (i + 1) % count;
+        const unsigned side[4] = {points.low[i], points.low[next], points.high[next], points.high[i]};
+        put_face(step, side, 4, &faces);
+    }
+    const char *list = tn_stepfile_list_text(&faces);
+    unsigned solid = tn_stepfile_add(step, "IFCPOLYGONALFACESET(#%u,.T.,%s,$)", at, list ? list : "()");
+    step->text.failed |= points.text.failed || faces.text.failed;
+    free(points.text.data);
+    tn_stepfile_list_clear(&faces);
+    return solid;
 }
 
 unsigned tn_stepfile_box(tn_stepfile *step, double wide, double deep, double high)

@@ -62,7 +62,14 @@ unsigned tn_stepfile_box(tn_stepfile *step, double wide, double deep, double hig
 /* The extruded solid of a box between corners. */
 unsigned tn_stepfile_solid(tn_stepfile *step, const double low[3], const double high[3]);
 
-/* A shape of solids. */
+/* A shape of extruded solids. */
 unsigned tn_stepfile_shape(tn_stepfile *step, const char *solids);
+
+/* The solid of faces that is upright over a convex polygon, counter-clockwise seen from above, of at most
+ * TN_FACET_CORNERS corners. */
+unsigned tn_stepfile_prism(tn_stepfile *step, const tn_block_corner *corners, size_t count);
+
+/* A shape of such solids. */
+unsigned tn_stepfile_faceted(tn_stepfile *step, const char *solids);
 
 #endif

@@ -15,6 +15,13 @@ static inline bool tn_rectangles_meet(const tn_rectangle *a, const tn_rectangle 
     return a->x0 < b->x1 && b->x0 < a->x1 && a->y0 < b->y1 && b->y0 < a->y1;
 }
 
+/* What both have in common; turned round where that is nothing. */
+static inline tn_rectangle tn_rectangles_common(const tn_rectangle *a, const tn_rectangle *b)
+{
+    return (tn_rectangle){a->x0 > b->x0 ? a->x0 : b->x0, a->x1 < b->x1 ? a->x1 : b->x1, a->y0 > b->y0 ? a->y0 : b->y0,
+                          a->y1 < b->y1 ? a->y1 : b->y1};
+}
+
 /* Does the first lie in the second? Edges may be the same. */
 static inline bool tn_rectangle_within(const tn_rectangle *a, const tn_rectangle *b)
 {

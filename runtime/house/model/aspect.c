@@ -17,7 +17,7 @@ const uint32_t tn_solid_groups[TN_SOLID_COUNT] = {
     [TN_SOLID_POST] = TN_GROUP_WALL,    [TN_SOLID_DECK] = TN_GROUP_FLOOR,   [TN_SOLID_ROOFDECK] = TN_GROUP_FLOOR,
     [TN_SOLID_ITEM] = TN_GROUP_ITEM,    [TN_SOLID_ROOF] = TN_GROUP_ROOF,    [TN_SOLID_PANE] = TN_GROUP_PANE,
     [TN_SOLID_LEAF] = TN_GROUP_LEAF,    [TN_SOLID_FLIGHT] = TN_GROUP_FLOOR,
-    [TN_SOLID_GUARD] = TN_GROUP_GUARD,
+    [TN_SOLID_GUARD] = TN_GROUP_GUARD,  [TN_SOLID_GABLE] = TN_GROUP_WALL,
 };
 
 void tn_house_projection_clear(tn_house_projection *projection)
@@ -118,8 +118,8 @@ static void drop_above(const tn_house *house, tn_blocks *blocks, uint32_t storey
     size_t kept = 0;
     for (size_t i = 0; i < blocks->count; i++) {
         const tn_house_block *block = &blocks->items[i];
-        bool shown =
-            block->kind == TN_SOLID_ROOF ? house->cells[block->of].storey + 1 < storeys : block->low[2] < level;
+        bool roof = block->kind == TN_SOLID_ROOF || block->kind == TN_SOLID_GABLE;
+        bool shown = roof ? house->cells[block->of].storey + 1 < storeys : block->low[2] < level;
         if (shown)
             blocks->items[kept++] = *block;
     }
@@ -336,11 +336,8 @@ static uint32_t group_of(const tn_house *house, const tn_grouping *grouping, con
 
 static void group_blocks(const tn_house *house, const tn_grouping *grouping, tn_blocks *blocks)
 {
-    for (size_t i = 0; i < blocks->count; i++) {
-        tn_house_block *block = &blocks->items[i], end = tn_block_end(block);
-        block->group = group_of(house, grouping, block);
-        block->end_group = group_of(house, grouping, &end);
-    }
+    for (size_t i = 0; i < blocks->count; i++)
+        blocks->items[i].group = group_of(house, grouping, &blocks->items[i]);
 }
 
 tn_status tn_house_projection_take(const tn_house *house, const tn_solids *solids, const tn_aspect *aspect,

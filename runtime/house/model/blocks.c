@@ -4,6 +4,15 @@
 #include "runtime/base/array.h"
 #include "runtime/house/model/model.h"
 
+/* Of a block's polygon that has been cut: along two axes and by two levels. */
+enum { POLYGON_MAX = TN_FACET_CORNERS + 4 };
+
+/* A polygon that is cut. Pieces that share an edge, or a face, get the same corners where both are cut. */
+typedef struct tn_block_polygon {
+    tn_block_corner corners[POLYGON_MAX];
+    size_t count;
+} tn_block_polygon;
+
 void tn_blocks_clear(tn_blocks *blocks)
 {
     free(blocks->items);
@@ -11,44 +20,145 @@ void tn_blocks_clear(tn_blocks *blocks)
     *blocks = (tn_blocks){0};
 }
 
-static tn_status add_block(tn_blocks *blocks, tn_house_block block, tn_error *error)
+static void widen(double *low, double *high, double at)
 {
-    block.low[2] = block.bottom[0] < block.bottom[1] ? block.bottom[0] : block.bottom[1];
-    block.high[2] = block.top[0] > block.top[1] ? block.top[0] : block.top[1];
+    *low = at < *low ? at : *low;
+    *high = at > *high ? at : *high;
+}
+
+static void bound(tn_house_block *block)
+{
+    const tn_block_corner *first = &block->corners[0];
+    block->low[0] = block->high[0] = first->x;
+    block->low[1] = block->high[1] = first->y;
+    block->low[2] = first->low;
+    block->high[2] = first->high;
+    for (size_t i = 1; i < block->count; i++) {
+        const tn_block_corner *corner = &block->corners[i];
+        widen(&block->low[0], &block->high[0], corner->x);
+        widen(&block->low[1], &block->high[1], corner->y);
+        widen(&block->low[2], &block->high[2], corner->low);
+        widen(&block->low[2], &block->high[2], corner->high);
+    }
+}
+
+static tn_status add_block(tn_blocks *blocks, const tn_house_block *block, tn_error *error)
+{
     if (!tn_array_reserve_from(&blocks->items, &blocks->room, 64, blocks->count, 1, sizeof *blocks->items))
         return tn_fail_memory(error);
-    blocks->items[blocks->count++] = block;
+    blocks->items[blocks->count++] = *block;
     return TN_OK;
 }
 
-static tn_status add_cut(tn_blocks *blocks, tn_cut_face face, tn_error *error)
+/* Blocks like one, over a polygon: of more than four corners in parts. */
+static tn_status add_polygon(tn_blocks *blocks, const tn_house_block *like, const tn_block_polygon *polygon,
+                             tn_error *error)
 {
-    if (!tn_array_reserve_from(&blocks->cuts, &blocks->cut_room, 64, blocks->cut_count, 1, sizeof *blocks->cuts))
-        return tn_fail_memory(error);
-    blocks->cuts[blocks->cut_count++] = face;
-    return TN_OK;
+    tn_status status = TN_OK;
+    for (size_t i = 1; status == TN_OK && i + 1 < polygon->count; i += TN_BLOCK_CORNERS - 2) {
+        tn_house_block block = *like;
+        block.count = 0;
+        block.corners[block.count++] = polygon->corners[0];
+        for (size_t k = i; k < polygon->count && block.count < TN_BLOCK_CORNERS; k++)
+            block.corners[block.count++] = polygon->corners[k];
+        bound(&block);
+        status = add_block(blocks, &block, error);
+    }
+    return status;
+}
+
+static tn_block_polygon polygon_of(const tn_house_block *block)
+{
+    tn_block_polygon polygon = {.count = block->count};
+    for (size_t i = 0; i < block->count; i++)
+        polygon.corners[i] = block->corners[i];
+    return polygon;
+}
+
+/* ---- cutting polygons */
+
+/* The corner between two others whose values are on either side of 0, where the value is 0. An edge gives the same one
+ * whichever way it is gone along. */
+static tn_block_corner between(const tn_block_corner *a, const tn_block_corner *b, double at_a, double at_b)
+{
+    if (b->x < a->x || (b->x == a->x && b->y < a->y))
+        return between(b, a, at_b, at_a);
+    double part = at_a / (at_a - at_b);
+    return (tn_block_corner){a->x + part * (b->x - a->x), a->y + part * (b->y - a->y),
+                             a->low + part * (b->low - a->low), a->high + part * (b->high - a->high)};
+}
+
+/* What is left of a polygon where a value is not below 0; nothing where that has no area. made: of each corner, is it
+ * where the value is 0 between two others? */
+static tn_block_polygon keep_above(const tn_block_polygon *polygon, const double values[POLYGON_MAX],
+                                   bool made[POLYGON_MAX])
+{
+    tn_block_polygon kept = {.count = 0};
+    bool any = false;
+    for (size_t i = 0; i < polygon->count && kept.count + 1 < POLYGON_MAX; i++) {
+        size_t next = (i + 1) % polygon->count;
+        any = any || values[i] > 0;
+        if (values[i] >= 0) {
+            made[kept.count] = false;
+            kept.corners[kept.count++] = polygon->corners[i];
+        }
+        if ((values[i] < 0 && values[next] > 0) || (values[i] > 0 && values[next] < 0)) {
+            made[kept.count] = true;
+            kept.corners[kept.count++] =
+                between(&polygon->corners[i], &polygon->corners[next], values[i], values[next]);
+        }
+    }
+    kept.count = any ? kept.count : 0;
+    return kept;
+}
+
+static double place_of(const tn_block_corner *corner, int axis)
+{
+    return axis == 0 ? corner->x : corner->y;
+}
+
+/* What of a polygon is beyond a plane across x or y, or before it. */
+static tn_block_polygon upright_part(const tn_block_polygon *polygon, int axis, double at, bool beyond)
+{
+    double values[POLYGON_MAX];
+    bool made[POLYGON_MAX];
+    for (size_t i = 0; i < polygon->count; i++) {
+        double over = place_of(&polygon->corners[i], axis) - at;
+        values[i] = beyond ? over : -over;
+    }
+    tn_block_polygon part = keep_above(polygon, values, made);
+    for (size_t i = 0; i < part.count; i++)
+        if (made[i])
+            *(axis == 0 ? &part.corners[i].x : &part.corners[i].y) = at;
+    return part;
 }
 
 /* ---- blocks of solids */
 
 static tn_status add_box(tn_blocks *blocks, const tn_solid *solid, tn_error *error)
 {
-    const tn_box *b = &solid->at;
+    double x0 = (double)solid->at.x0, x1 = (double)solid->at.x1, y0 = (double)solid->at.y0, y1 = (double)solid->at.y1,
+           low = (double)solid->at.z0, high = (double)solid->at.z1;
     tn_house_block block = {.kind = solid->kind,
                             .group = solid->kind,
-                            .end_group = solid->kind,
                             .of = solid->of,
                             .item = solid->item,
-                            .axis = 1,
-                            .low = {(double)b->x0, (double)b->y0, 0},
-                            .high = {(double)b->x1, (double)b->y1, 0},
-                            .bottom = {(double)b->z0, (double)b->z0},
-                            .top = {(double)b->z1, (double)b->z1}};
-    return add_block(blocks, block, error);
+                            .count = 4,
+                            .corners = {{x0, y0, low, high}, {x1, y0, low, high}, {x1, y1, low, high}, {x0, y1, low, high}},
+                            .low = {x0, y0, low},
+                            .high = {x1, y1, high}};
+    return add_block(blocks, &block, error);
 }
 
-/* Where lines of roofs have points, in x for those across and in y for the others. Roofs side by side are in one plane;
- * with all of them cut at the same places, rounding leaves no slivers between them. */
+/* ---- blocks of prisms: cut exactly, so that those beside each other have the same corners */
+
+typedef struct tn_prism_polygon {
+    tn_prism_corner corners[POLYGON_MAX];
+    size_t count;
+} tn_prism_polygon;
+
+/* Where corners of prisms are, in x and in y. Roofs side by side are in one plane; if all that slope are cut at the same
+ * places, rounding leaves no slivers between them, and those that meet have whole faces in common. */
 typedef struct tn_breaks {
     tn_fraction *at[2];
     size_t count[2];
@@ -65,27 +175,23 @@ static int by_value(const void *a, const void *b)
     return compare(*(const tn_fraction *)a, *(const tn_fraction *)b);
 }
 
-/* Only roofs with slabs are cut so, and those with points that rounding moves. */
+static tn_fraction place_of_exact(const tn_prism_corner *corner, int axis)
+{
+    return axis == 0 ? corner->x : corner->y;
+}
+
 static tn_status gather_breaks(const tn_solids *solids, tn_breaks *breaks, tn_error *error)
 {
-    bool needed = false;
     *breaks = (tn_breaks){0};
-    for (size_t i = 0; i < solids->prism_count; i++)
-        needed |= solids->prisms[i].slab > 0;
-    for (size_t i = 0; i < solids->point_count; i++)
-        needed |= solids->points[i].y.bottom != 1 || solids->points[i].z.bottom != 1;
-    if (!needed)
-        return TN_OK;
     for (int axis = 0; axis < 2; axis++) {
-        tn_fraction *at = breaks->at[axis] = malloc(solids->point_count * sizeof *at);
-        size_t count = 0, kept = 0;
+        tn_fraction *at = breaks->at[axis] = malloc((solids->corner_count + 1) * sizeof *at);
+        size_t kept = 0;
         if (!at)
             return tn_fail_memory(error);
-        for (size_t i = 0; i < solids->prism_count; i++)
-            for (size_t k = 0; solids->prisms[i].across == (axis == 0) && k < solids->prisms[i].point_count; k++)
-                at[count++] = solids->points[solids->prisms[i].point_first + k].y;
-        qsort(at, count, sizeof *at, by_value);
-        for (size_t i = 0; i < count; i++)
+        for (size_t i = 0; i < solids->corner_count; i++)
+            at[i] = place_of_exact(&solids->corners[i], axis);
+        qsort(at, solids->corner_count, sizeof *at, by_value);
+        for (size_t i = 0; i < solids->corner_count; i++)
             if (kept == 0 || compare(at[kept - 1], at[i]) != 0)
                 at[kept++] = at[i];
         breaks->count[axis] = kept;
@@ -93,75 +199,112 @@ static tn_status gather_breaks(const tn_solids *solids, tn_breaks *breaks, tn_er
     return TN_OK;
 }
 
-/* The height of the line between two points, at a place between them. */
-static tn_fraction between(const tn_roof_point ends[2], tn_fraction at)
+static tn_fraction difference(tn_fraction a, tn_fraction b)
 {
-    tn_fraction run = tn_fraction_new(ends[1].y.top * ends[0].y.bottom - ends[0].y.top * ends[1].y.bottom,
-                                      ends[1].y.bottom * ends[0].y.bottom),
-                rise = tn_fraction_new(ends[1].z.top * ends[0].z.bottom - ends[0].z.top * ends[1].z.bottom,
-                                       ends[1].z.bottom * ends[0].z.bottom),
-                along = tn_fraction_new(at.top * ends[0].y.bottom - ends[0].y.top * at.bottom,
-                                        at.bottom * ends[0].y.bottom),
-                slope = tn_fraction_new(rise.top * run.bottom, rise.bottom * run.top),
-                up = tn_fraction_new(along.top * slope.top, along.bottom * slope.bottom);
-    return tn_fraction_new(ends[0].z.top * up.bottom + up.top * ends[0].z.bottom, ends[0].z.bottom * up.bottom);
+    return tn_fraction_new(a.top * b.bottom - b.top * a.bottom, a.bottom * b.bottom);
 }
 
-static tn_status add_stretch(tn_blocks *blocks, const tn_prism *prism, const tn_roof_point ends[2], tn_error *error)
+/* So far of the way from one number to another. */
+static tn_fraction on_the_way(tn_fraction from, tn_fraction to, tn_fraction part)
 {
-    int axis = prism->across ? 0 : 1;
-    tn_house_block block = {
-        .kind = TN_SOLID_ROOF, .group = TN_SOLID_ROOF, .end_group = TN_SOLID_OUTSIDE, .of = prism->of, .axis = axis};
-    block.low[1 - axis] = (double)prism->from;
-    block.high[1 - axis] = (double)prism->to;
-    block.low[axis] = tn_fraction_value(ends[0].y);
-    block.high[axis] = tn_fraction_value(ends[1].y);
-    for (int end = 0; end < 2; end++) {
-        tn_fraction under = ends[end].z;
-        under.top -= (tn_int128)prism->slab * under.bottom;
-        block.top[end] = tn_fraction_value(ends[end].z);
-        block.bottom[end] = prism->slab ? tn_fraction_value(under) : (double)prism->base;
+    tn_fraction way = difference(to, from), step = tn_fraction_new(way.top * part.top, way.bottom * part.bottom);
+    return tn_fraction_new(from.top * step.bottom + step.top * from.bottom, from.bottom * step.bottom);
+}
+
+/* The corner between two others where a plane across an axis is. */
+static tn_prism_corner corner_at(const tn_prism_corner *a, const tn_prism_corner *b, int axis, tn_fraction at)
+{
+    tn_fraction way = difference(place_of_exact(b, axis), place_of_exact(a, axis)),
+                over = difference(at, place_of_exact(a, axis)),
+                part = tn_fraction_new(over.top * way.bottom, over.bottom * way.top);
+    return (tn_prism_corner){axis == 0 ? at : on_the_way(a->x, b->x, part), axis == 1 ? at : on_the_way(a->y, b->y, part),
+                             on_the_way(a->low, b->low, part), on_the_way(a->high, b->high, part)};
+}
+
+/* What of a polygon is beyond a plane across x or y that cuts it, or before it. */
+static tn_prism_polygon exact_part(const tn_prism_polygon *polygon, int axis, tn_fraction at, bool beyond)
+{
+    tn_prism_polygon part = {.count = 0};
+    int turn = beyond ? 1 : -1;
+    for (size_t i = 0; i < polygon->count && part.count + 1 < POLYGON_MAX; i++) {
+        const tn_prism_corner *corner = &polygon->corners[i], *next = &polygon->corners[(i + 1) % polygon->count];
+        int here = turn * compare(place_of_exact(corner, axis), at),
+            then = turn * compare(place_of_exact(next, axis), at);
+        if (here >= 0)
+            part.corners[part.count++] = *corner;
+        if (here * then < 0)
+            part.corners[part.count++] = corner_at(corner, next, axis, at);
     }
-    return add_block(blocks, block, error);
+    return part;
 }
 
-/* A block for each stretch of the roof's line. */
-static tn_status add_prism(tn_blocks *blocks, const tn_prism *prism, const tn_roof_point *points,
-                           const tn_breaks *breaks, tn_error *error)
+/* Does it have an edge along which it slopes, and which is not level, in the direction of an axis or across both? */
+static bool slopes_along(const tn_prism_polygon *polygon, int axis)
 {
-    int axis = prism->across ? 0 : 1;
+    for (size_t i = 0; i < polygon->count; i++) {
+        const tn_prism_corner *a = &polygon->corners[i], *b = &polygon->corners[(i + 1) % polygon->count];
+        bool in_x = compare(a->x, b->x) != 0, in_y = compare(a->y, b->y) != 0;
+        bool level = compare(a->low, b->low) == 0 && compare(a->high, b->high) == 0;
+        if ((in_x && in_y) || ((axis == 0 ? in_x : in_y) && !level))
+            return true;
+    }
+    return false;
+}
+
+/* What prisms are cut at, and one of them. */
+typedef struct tn_breaking {
+    tn_blocks *blocks;
+    const tn_breaks *breaks;
+    tn_house_block like;
+    bool along[2]; /* which breaks it is cut at */
+} tn_breaking;
+
+static tn_status add_exact(const tn_breaking *b, const tn_prism_polygon *polygon, tn_error *error)
+{
+    tn_block_polygon rounded = {.count = polygon->count};
+    for (size_t i = 0; i < polygon->count; i++) {
+        const tn_prism_corner *corner = &polygon->corners[i];
+        rounded.corners[i] = (tn_block_corner){tn_fraction_value(corner->x), tn_fraction_value(corner->y),
+                                               tn_fraction_value(corner->low), tn_fraction_value(corner->high)};
+    }
+    return add_polygon(b->blocks, &b->like, &rounded, error);
+}
+
+/* Cuts a polygon at the breaks of one axis, and each part at those of the next. */
+static tn_status add_broken(const tn_breaking *b, const tn_prism_polygon *polygon, int axis, tn_error *error)
+{
+    if (axis == 2)
+        return add_exact(b, polygon, error);
+    tn_fraction low = place_of_exact(&polygon->corners[0], axis), high = low;
+    for (size_t i = 1; i < polygon->count; i++) {
+        tn_fraction at = place_of_exact(&polygon->corners[i], axis);
+        low = tn_fraction_less(at, low) ? at : low;
+        high = tn_fraction_less(high, at) ? at : high;
+    }
+    tn_prism_polygon rest = *polygon;
     tn_status status = TN_OK;
-    for (size_t i = 0, b = 0; status == TN_OK && i + 1 < prism->point_count; i++) {
-        tn_roof_point ends[2] = {points[i], points[i]};
-        while (b < breaks->count[axis] && compare(breaks->at[axis][b], points[i].y) <= 0)
-            b++;
-        for (; status == TN_OK && b < breaks->count[axis] && compare(breaks->at[axis][b], points[i + 1].y) < 0; b++) {
-            ends[0] = ends[1];
-            ends[1] = (tn_roof_point){breaks->at[axis][b], between(points + i, breaks->at[axis][b])};
-            status = add_stretch(blocks, prism, ends, error);
-        }
-        ends[0] = ends[1];
-        ends[1] = points[i + 1];
-        if (status == TN_OK)
-            status = add_stretch(blocks, prism, ends, error);
+    for (size_t k = 0; status == TN_OK && b->along[axis] && k < b->breaks->count[axis]; k++) {
+        tn_fraction at = b->breaks->at[axis][k];
+        if (!tn_fraction_less(low, at) || !tn_fraction_less(at, high))
+            continue;
+        tn_prism_polygon part = exact_part(&rest, axis, at, false);
+        rest = exact_part(&rest, axis, at, true);
+        status = add_broken(b, &part, axis + 1, error);
     }
-    return status;
+    return status == TN_OK ? add_broken(b, &rest, axis + 1, error) : status;
 }
 
-tn_house_block tn_block_end(const tn_house_block *block)
+static tn_status add_prism(tn_blocks *blocks, const tn_solids *solids, const tn_prism *prism, const tn_breaks *breaks,
+                           tn_error *error)
 {
-    tn_house_block wall = *block;
-    wall.kind = TN_SOLID_OUTSIDE;
-    return wall;
-}
-
-/* The blocks from `first` on are the prism's. */
-static void find_ends(const tn_house *house, const tn_prism *prism, size_t first, tn_blocks *blocks)
-{
-    const tn_shape_record *shape = tn_house_shape(house, house->cells[prism->of].zone, TN_CHOICE_ROOF);
-    bool ends = prism->slab == 0 && shape && shape->roof != TN_ROOF_FLAT;
-    for (size_t i = first; ends && i < blocks->count; i++)
-        blocks->items[i].edge = (double)house->form->record->roof;
+    tn_prism_polygon polygon = {.count = prism->corner_count};
+    for (size_t i = 0; i < polygon.count; i++)
+        polygon.corners[i] = solids->corners[prism->corner_first + i];
+    const tn_breaking breaking = {.blocks = blocks,
+                                  .breaks = breaks,
+                                  .like = {.kind = prism->kind, .group = prism->kind, .of = prism->of},
+                                  .along = {slopes_along(&polygon, 0), slopes_along(&polygon, 1)}};
+    return add_broken(&breaking, &polygon, 0, error);
 }
 
 tn_status tn_blocks_of(const tn_house *house, const tn_solids *solids, tn_blocks *blocks, tn_error *error)
@@ -176,128 +319,104 @@ tn_status tn_blocks_of(const tn_house *house, const tn_solids *solids, tn_blocks
         status = add_box(blocks, &solids->boxes[i], error);
     for (size_t i = 0; status == TN_OK && i < leaves.box_count; i++)
         status = add_box(blocks, &leaves.boxes[i], error);
-    for (size_t i = 0; status == TN_OK && i < solids->prism_count; i++) {
-        const tn_prism *prism = &solids->prisms[i];
-        size_t first = blocks->count;
-        status = add_prism(blocks, prism, solids->points + prism->point_first, &breaks, error);
-        find_ends(house, prism, first, blocks);
-    }
+    for (size_t i = 0; status == TN_OK && i < solids->prism_count; i++)
+        status = add_prism(blocks, solids, &solids->prisms[i], &breaks, error);
     tn_solids_clear(&leaves);
     free(breaks.at[0]);
     free(breaks.at[1]);
     return status;
 }
 
-/* ---- cutting */
+/* ---- cutting blocks */
 
-/* Where the line from ends[0] to ends[1] is at a place between the block's ends. */
-static double height_at(const tn_house_block *b, const double ends[2], double at)
+static tn_status add_cut(tn_blocks *blocks, tn_cut_face face, tn_error *error)
 {
-    return ends[0] + (ends[1] - ends[0]) * ((at - b->low[b->axis]) / (b->high[b->axis] - b->low[b->axis]));
+    if (!tn_array_reserve_from(&blocks->cuts, &blocks->cut_room, 64, blocks->cut_count, 1, sizeof *blocks->cuts))
+        return tn_fail_memory(error);
+    blocks->cuts[blocks->cut_count++] = face;
+    return TN_OK;
 }
 
-static tn_cut_face cut_face(const tn_house_block *b, const double at[4][2])
+/* The face that an upright cut leaves of a block, between the two corners of a part that are in its plane. */
+static tn_status add_upright_cut(tn_blocks *to, const tn_house_block *b, const tn_block_polygon *part, int axis,
+                                 double at, tn_error *error)
 {
-    tn_cut_face face = {.kind = b->kind, .of = b->of};
-    for (int i = 0; i < 4; i++)
-        for (int k = 0; k < 2; k++)
-            face.at[i][k] = at[i][k];
-    return face;
+    const tn_block_corner *ends[2] = {NULL, NULL};
+    for (size_t i = 0; i < part->count; i++) {
+        const tn_block_corner *corner = &part->corners[i];
+        if (place_of(corner, axis) != at)
+            continue;
+        if (!ends[0] || place_of(corner, 1 - axis) < place_of(ends[0], 1 - axis))
+            ends[0] = corner;
+        if (!ends[1] || place_of(corner, 1 - axis) > place_of(ends[1], 1 - axis))
+            ends[1] = corner;
+    }
+    if (!ends[0] || ends[0] == ends[1])
+        return TN_OK;
+    double from = place_of(ends[0], 1 - axis), end = place_of(ends[1], 1 - axis);
+    return add_cut(to,
+                   (tn_cut_face){.kind = b->kind,
+                                 .of = b->of,
+                                 .at = {{from, ends[0]->low}, {end, ends[1]->low}, {end, ends[1]->high}, {from, ends[0]->high}}},
+                   error);
 }
 
-/* The part of a block between two places along its slope. */
-static tn_house_block stretch(const tn_house_block *b, double from, double to)
+static tn_status cut_upright(tn_blocks *to, const tn_house_block *b, int axis, double at, bool above, tn_error *error)
 {
-    tn_house_block part = *b;
-    if (from > b->low[b->axis]) {
-        part.low[b->axis] = from;
-        part.top[0] = height_at(b, b->top, from);
-        part.bottom[0] = height_at(b, b->bottom, from);
+    if (!(b->low[axis] < at && b->high[axis] > at))
+        return (above ? b->low[axis] >= at : b->high[axis] <= at) ? add_block(to, b, error) : TN_OK;
+    tn_block_polygon whole = polygon_of(b), part = upright_part(&whole, axis, at, above);
+    tn_status status = add_upright_cut(to, b, &part, axis, at, error);
+    return status == TN_OK ? add_polygon(to, b, &part, error) : status;
+}
+
+/* What of a polygon has its top, or its bottom, not above a level; or not below it. */
+static tn_block_polygon level_part(const tn_block_polygon *polygon, bool top, double level, bool above)
+{
+    double values[POLYGON_MAX];
+    bool made[POLYGON_MAX];
+    for (size_t i = 0; i < polygon->count; i++) {
+        double over = (top ? polygon->corners[i].high : polygon->corners[i].low) - level;
+        values[i] = above ? over : -over;
     }
-    if (to < b->high[b->axis]) {
-        part.high[b->axis] = to;
-        part.top[1] = height_at(b, b->top, to);
-        part.bottom[1] = height_at(b, b->bottom, to);
-    }
+    tn_block_polygon part = keep_above(polygon, values, made);
+    for (size_t i = 0; i < part.count; i++)
+        if (made[i])
+            *(top ? &part.corners[i].high : &part.corners[i].low) = level;
     return part;
 }
 
-static tn_status cut_upright(tn_blocks *to, tn_house_block b, int axis, double at, bool above, tn_error *error)
+/* A part of a block that the level cuts all over: the level becomes its top. */
+static tn_status keep_below(tn_blocks *to, const tn_house_block *b, tn_block_polygon part, double level,
+                            tn_error *error)
 {
-    if (!(b.low[axis] < at && b.high[axis] > at))
-        return (above ? b.low[axis] >= at : b.high[axis] <= at) ? add_block(to, b, error) : TN_OK;
-    int other = 1 - axis;
-    bool sloped = axis == b.axis; /* the plane is across the slope: level above and below */
-    double bottom = height_at(&b, b.bottom, at), top = height_at(&b, b.top, at);
-    const double face[4][2] = {{b.low[other], sloped ? bottom : b.bottom[0]},
-                               {b.high[other], sloped ? bottom : b.bottom[1]},
-                               {b.high[other], sloped ? top : b.top[1]},
-                               {b.low[other], sloped ? top : b.top[0]}};
-    tn_status status = add_cut(to, cut_face(&b, face), error);
-    if (sloped)
-        b = above ? stretch(&b, at, b.high[axis]) : stretch(&b, b.low[axis], at);
-    else
-        *(above ? &b.low[axis] : &b.high[axis]) = at;
-    return status == TN_OK ? add_block(to, b, error) : status;
-}
-
-/* A block that the level `at` cuts all over: the level is at its top or below it. */
-static tn_status keep_below(tn_blocks *to, tn_house_block b, double at, tn_error *error)
-{
-    const double face[4][2] = {
-        {b.low[0], b.low[1]}, {b.high[0], b.low[1]}, {b.high[0], b.high[1]}, {b.low[0], b.high[1]}};
-    b.top[0] = b.top[1] = at;
-    tn_status status = add_cut(to, cut_face(&b, face), error);
-    return status == TN_OK ? add_block(to, b, error) : status;
-}
-
-/* Where a line of the block crosses the level, if between its ends. */
-static bool crossing(const tn_house_block *b, const double ends[2], double level, double *at)
-{
-    if ((ends[0] >= level) == (ends[1] >= level))
-        return false;
-    *at = b->low[b->axis] + (b->high[b->axis] - b->low[b->axis]) * ((level - ends[0]) / (ends[1] - ends[0]));
-    return *at > b->low[b->axis] && *at < b->high[b->axis];
-}
-
-/* A part of a block that no line of crosses the level. */
-static tn_status cut_part(tn_blocks *to, tn_house_block b, double level, tn_error *error)
-{
-    if (b.bottom[0] + b.bottom[1] >= 2 * level)
-        return TN_OK;
-    return b.top[0] + b.top[1] > 2 * level ? keep_below(to, b, level, error) : add_block(to, b, error);
+    tn_status status = TN_OK;
+    for (size_t i = 0; i < part.count; i++)
+        part.corners[i].high = level;
+    for (size_t i = 1; status == TN_OK && i + 1 < part.count; i += 2) {
+        tn_cut_face face = {.kind = b->kind, .of = b->of};
+        for (size_t k = 0; k < 4; k++) {
+            size_t corner = k == 0 ? 0 : i + k - 1 < part.count ? i + k - 1 : part.count - 1;
+            face.at[k][0] = part.corners[corner].x;
+            face.at[k][1] = part.corners[corner].y;
+        }
+        status = add_cut(to, face, error);
+    }
+    return status == TN_OK ? add_polygon(to, b, &part, error) : status;
 }
 
 /* Only what lies below a level is ever kept. */
-static tn_status cut_z(tn_blocks *to, tn_house_block b, double level, tn_error *error)
+static tn_status cut_level(tn_blocks *to, const tn_house_block *b, double level, tn_error *error)
 {
-    if (b.high[2] <= level)
+    if (b->high[2] <= level)
         return add_block(to, b, error);
-    if (b.low[2] >= level)
+    if (b->low[2] >= level)
         return TN_OK;
-    double at[2];
-    bool top[2] = {true, false};
-    size_t count = crossing(&b, b.top, level, &at[0]) ? 1 : 0;
-    top[count] = false;
-    if (crossing(&b, b.bottom, level, &at[count]))
-        count++;
-    if (count == 2 && at[1] < at[0]) {
-        double first = at[1];
-        at[1] = at[0];
-        at[0] = first;
-        top[0] = false;
-        top[1] = true;
-    }
-    tn_status status = TN_OK;
-    for (size_t i = 0; status == TN_OK && i <= count; i++) {
-        tn_house_block part = stretch(&b, i == 0 ? b.low[b.axis] : at[i - 1], i == count ? b.high[b.axis] : at[i]);
-        if (i > 0)
-            *(top[i - 1] ? &part.top[0] : &part.bottom[0]) = level;
-        if (i < count)
-            *(top[i] ? &part.top[1] : &part.bottom[1]) = level;
-        status = cut_part(to, part, level, error);
-    }
-    return status;
+    tn_block_polygon whole = polygon_of(b), below = level_part(&whole, true, level, false),
+                     cut = level_part(&whole, true, level, true);
+    tn_status status = add_polygon(to, b, &below, error);
+    cut = level_part(&cut, false, level, false);
+    return status == TN_OK ? keep_below(to, b, cut, level, error) : status;
 }
 
 tn_status tn_blocks_cut(tn_blocks *blocks, int axis, double at, bool above, tn_error *error)
@@ -306,7 +425,7 @@ tn_status tn_blocks_cut(tn_blocks *blocks, int axis, double at, bool above, tn_e
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && i < blocks->count; i++) {
         const tn_house_block *b = &blocks->items[i];
-        status = axis == 2 ? cut_z(&kept, *b, at, error) : cut_upright(&kept, *b, axis, at, above, error);
+        status = axis == 2 ? cut_level(&kept, b, at, error) : cut_upright(&kept, b, axis, at, above, error);
     }
     tn_blocks_clear(blocks);
     *blocks = kept;

@@ -1,9 +1,10 @@
 /* A house as blocks, which can be cut by planes across the axes and become one mesh.
  *
- * A block is a box whose top and bottom may slope in x or in y: a wall, a deck, or the stretch of a roof between two
- * points of its line.
- * Blocks do not overlap. Coordinates are nanometres as doubles: whole numbers, but for the lines of roofs and where
- * these are cut. A tn_blocks owns its arrays; free them with tn_blocks_clear.
+ * A block stands upright over a convex polygon of three or four corners, between a bottom and a top that may slope: a
+ * wall, a deck, or a piece of a roof.
+ * Blocks do not overlap; where two meet other than in a plane across an axis, they have the whole face in common.
+ * Coordinates are nanometres as doubles: whole numbers, but for roofs and where these are cut. A tn_blocks owns its
+ * arrays; free them with tn_blocks_clear.
  */
 #ifndef TARTAN_HOUSE_MODEL_H
 #define TARTAN_HOUSE_MODEL_H
@@ -11,19 +12,22 @@
 #include "runtime/geometry/mesh.h"
 #include "runtime/house/solids.h"
 
-/* of, item: as in tn_solid; of a roof, the cell. group: of its faces in a mesh; at first its kind. edge: of a roof that
- * is no slab and not flat, how thick it is drawn: what of it stands upright and is higher, such as a gable end, is in
- * the group of the walls below it, end_group. Otherwise 0. */
+#define TN_BLOCK_CORNERS 4u
+
+/* Counter-clockwise seen from above. */
+typedef struct tn_block_corner {
+    double x, y, low, high;
+} tn_block_corner;
+
+/* of, item: as in tn_solid; of a prism, the cell. group: of its faces in a mesh; at first its kind. */
 typedef struct tn_house_block {
     tn_solid_kind kind;
-    uint32_t of, item, group, end_group;
-    double edge;
-    int axis;                 /* in which it may slope: 0 or 1 */
-    double low[3], high[3];   /* low[2] is the lower of the two bottoms, high[2] the higher of the two tops */
-    double bottom[2], top[2]; /* at low[axis] and at high[axis] */
+    uint32_t of, item, group, count;
+    tn_block_corner corners[TN_BLOCK_CORNERS];
+    double low[3], high[3]; /* its bounds */
 } tn_house_block;
 
-/* A polygon in the plane of a cut, counter-clockwise for whoever sees the cut. Coordinates are the two other axes. */
+/* A polygon in the plane of a cut. Coordinates are the two other axes. */
 typedef struct tn_cut_face {
     tn_solid_kind kind;
     uint32_t of;
@@ -41,9 +45,6 @@ void tn_blocks_clear(tn_blocks *blocks);
 
 /* The blocks of a house, with the leaves of its doors and the panes of its windows (tn_house_leaves). */
 tn_status tn_blocks_of(const tn_house *house, const tn_solids *solids, tn_blocks *blocks, tn_error *error);
-
-/* The wall that the ends of a roof are part of. */
-tn_house_block tn_block_end(const tn_house_block *block);
 
 /* Keeps what lies below (or, `above`, beyond) the plane across an axis, in blocks->items; blocks->cuts are the faces in
  * the plane of what was cut through. */

@@ -53,6 +53,7 @@ uint32_t tn_solid_made_part(const tn_house *house, tn_solid_kind kind, uint32_t 
         return tn_layer_part(house->form, layers.first);
     switch (kind) {
     case TN_SOLID_OUTSIDE:
+    case TN_SOLID_GABLE:
         return TN_OF_WALL;
     case TN_SOLID_PARTY:
         return TN_OF_PARTY;
@@ -184,16 +185,15 @@ static void set_fraction(mpq_t to, tn_fraction fraction)
 
 #define SLOPE_PARTS 1000000000u
 
-/* factor := how much longer a slope is than its plan, which rises so far on such a way; rounded down to a billionth, so
- * that the area of a roof is the same however it is cut. Changes both. */
-static void set_slope(mpq_t factor, mpq_t rise, mpq_t way)
+/* factor := how much longer a slope is than its plan, which rises so much for each unit of that; rounded down to a
+ * billionth, so that the area of a roof is the same however it is cut. Changes both. */
+static void set_slope(mpq_t factor, mpq_t rise)
 {
     mpz_t root;
     mpz_init(root);
+    mpq_set_ui(factor, 1, 1);
     mpq_mul(rise, rise, rise);
-    mpq_mul(way, way, way);
-    mpq_add(rise, rise, way);
-    mpq_div(factor, rise, way);
+    mpq_add(factor, factor, rise);
     mpz_ui_pow_ui(root, SLOPE_PARTS, 2);
     mpz_mul(root, root, mpq_numref(factor));
     mpz_fdiv_q(root, root, mpq_denref(factor)); /* the floor of a root is that of the floor's root */
@@ -203,41 +203,82 @@ static void set_slope(mpq_t factor, mpq_t rise, mpq_t way)
     mpz_clear(root);
 }
 
-/* The stretch of a roof between two points of its line: an upright strip as wide as the prism, or a slab. */
-static void add_slope(const tn_prism *prism, const tn_roof_point *points, tn_cost_line *line)
+/* difference := a - b. */
+static void set_difference(mpq_t difference, tn_fraction a, tn_fraction b)
 {
-    mpq_t way, rise, high, plan;
-    mpq_inits(way, rise, high, plan, NULL);
-    set_fraction(rise, points[0].z);
-    set_fraction(plan, points[1].z);
-    mpq_add(high, rise, plan);
-    mpq_div_2exp(high, high, 1);
-    mpq_sub(rise, plan, rise);
-    mpq_set_si(plan, prism->slab ? prism->slab : prism->base, 1);
-    if (prism->slab)
-        mpq_set(high, plan);
-    else
-        mpq_sub(high, high, plan); /* how high in the middle */
-    set_fraction(way, points[0].y);
-    set_fraction(plan, points[1].y);
-    mpq_sub(way, plan, way);
-    mpq_set_si(plan, prism->to - prism->from, 1);
-    mpq_mul(plan, plan, way); /* its area in plan */
-    mpq_mul(high, high, plan);
-    mpq_add(line->volume, line->volume, high);
-    set_slope(high, rise, way);
-    mpq_mul(plan, plan, high);
-    mpq_add(line->area, line->area, plan);
-    mpq_clears(way, rise, high, plan, NULL);
+    mpq_t less;
+    mpq_init(less);
+    set_fraction(difference, a);
+    set_fraction(less, b);
+    mpq_sub(difference, difference, less);
+    mpq_clear(less);
 }
 
-static void add_roof(const tn_solids *solids, const tn_prism *prism, tn_costs *costs)
+/* Twice the area of a triangle in plan, and three times how high the prism is in its middle. */
+static void measure_triangle(const tn_prism_corner *a, const tn_prism_corner *b, const tn_prism_corner *c, mpq_t twice,
+                             mpq_t thrice)
 {
-    tn_cost_line *line = &costs->lines[TN_OF_ROOF];
-    const tn_roof_point *points = solids->points + prism->point_first;
-    for (size_t i = 0; i + 1 < prism->point_count; i++)
-        add_slope(prism, points + i, line);
-    line->count++;
+    mpq_t x, y;
+    mpq_inits(x, y, NULL);
+    set_difference(x, b->x, a->x);
+    set_difference(y, c->y, a->y);
+    mpq_mul(twice, x, y);
+    set_difference(x, c->x, a->x);
+    set_difference(y, b->y, a->y);
+    mpq_mul(x, x, y);
+    mpq_sub(twice, twice, x);
+    set_difference(thrice, a->high, a->low);
+    set_difference(x, b->high, b->low);
+    mpq_add(thrice, thrice, x);
+    set_difference(x, c->high, c->low);
+    mpq_add(thrice, thrice, x);
+    mpq_clears(x, y, NULL);
+}
+
+/* The area and the volume of a prism: of a slab along its slope, of a wall below one as if all of it were as thick as
+ * a wall. */
+static void add_prism(const tn_house *house, const tn_solids *solids, const tn_prism *prism, tn_cost_line *line)
+{
+    const tn_prism_corner *corners = solids->corners + prism->corner_first;
+    mpq_t twice, thrice, plan, volume;
+    mpq_inits(twice, thrice, plan, volume, NULL);
+    for (size_t i = 1; i + 1 < prism->corner_count; i++) {
+        measure_triangle(&corners[0], &corners[i], &corners[i + 1], twice, thrice);
+        mpq_add(plan, plan, twice);
+        mpq_mul(twice, twice, thrice);
+        mpq_add(volume, volume, twice);
+    }
+    mpq_div_2exp(plan, plan, 1);
+    mpq_set_ui(twice, 1, 6);
+    mpq_mul(volume, volume, twice);
+    mpq_add(line->volume, line->volume, volume);
+    if (prism->kind == TN_SOLID_ROOF) {
+        set_fraction(thrice, prism->rise);
+        set_slope(twice, thrice);
+        mpq_mul(plan, plan, twice);
+    } else {
+        mpq_set_si(twice, house->form->record->wall, 1);
+        mpq_div(plan, volume, twice);
+    }
+    mpq_add(line->area, line->area, plan);
+    mpq_clears(twice, thrice, plan, volume, NULL);
+}
+
+/* A cell has one roof, in however many pieces; the walls below it are no walls more. */
+static tn_status add_roofs(const tn_house *house, const tn_solids *solids, tn_costs *costs, tn_error *error)
+{
+    bool *counted = calloc(house->cell_count + 1, sizeof *counted);
+    if (!counted)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < solids->prism_count; i++) {
+        const tn_prism *prism = &solids->prisms[i];
+        tn_cost_line *line = &costs->lines[tn_solid_made_part(house, prism->kind, prism->of, 0)];
+        add_prism(house, solids, prism, line);
+        line->count += prism->kind == TN_SOLID_ROOF && !counted[prism->of];
+        counted[prism->of] = true;
+    }
+    free(counted);
+    return TN_OK;
 }
 
 /* ---- costs */
@@ -365,8 +406,8 @@ tn_status tn_house_costs(const tn_house *house, const tn_solids *solids, tn_cost
         status = add_flights(house, costs, error);
     for (size_t i = 0; status == TN_OK && i < leaves.box_count; i++)
         add_box(house, &leaves.boxes[i], true, line_of(house, &leaves.boxes[i], costs));
-    for (size_t i = 0; status == TN_OK && i < solids->prism_count; i++)
-        add_roof(solids, &solids->prisms[i], costs);
+    if (status == TN_OK)
+        status = add_roofs(house, solids, costs, error);
     for (size_t i = 0; status == TN_OK && i < costs->count; i++) {
         price_line(house, &costs->lines[i]);
         mpz_add(costs->hundredths, costs->hundredths, costs->lines[i].hundredths);

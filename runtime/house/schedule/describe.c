@@ -245,20 +245,19 @@ static void put_solids(const tn_house *house, const tn_solids *solids, tn_json *
     tn_json_list_end(json);
 }
 
-static void put_roof(const tn_solids *solids, const tn_prism *p, tn_json *json)
+static void put_roof(const tn_solids *solids, const tn_prism *prism, tn_json *json)
 {
     tn_json_object(json, NULL);
-    tn_json_count(json, "of", p->of);
-    put_lengths(json, p->across ? "y" : "x", (const int64_t[]){p->from, p->to}, 2);
-    tn_json_whole(json, "base", p->base);
-    if (p->slab)
-        tn_json_whole(json, "slab", p->slab);
-    tn_json_list(json, "profile");
-    for (size_t k = 0; k < p->point_count; k++) {
-        const tn_roof_point *point = &solids->points[p->point_first + k];
+    tn_json_string(json, "kind", tn_solid_kind_text(prism->kind));
+    tn_json_count(json, "of", prism->of);
+    tn_json_list(json, "corners");
+    for (size_t k = 0; k < prism->corner_count; k++) {
+        const tn_prism_corner *corner = &solids->corners[prism->corner_first + k];
         tn_json_list(json, NULL);
-        put_fraction(json, point->y);
-        put_fraction(json, point->z);
+        put_fraction(json, corner->x);
+        put_fraction(json, corner->y);
+        put_fraction(json, corner->low);
+        put_fraction(json, corner->high);
         tn_json_list_end(json);
     }
     tn_json_list_end(json);
