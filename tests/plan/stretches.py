@@ -226,7 +226,7 @@ library lefts { trays 0..5 require neighbour(tray(1m), left) prune neighbour(few
 
 
 def remainders(folder):
-    """Stretches that end and begin by remainders of counts: few letters are read before a limit of states, and many states are alike."""
+    """Stretches that end and begin by remainders of counts, in one order or the other: sets of guesses about both orders are very many."""
     trays = list(itertools.product((1, 2), "abc", (False, True)))
     path = os.path.join(folder, "remainders.plan")
     with open(path, "w") as out:
@@ -234,6 +234,7 @@ def remainders(folder):
 rule pair = symmetric neighbour(tray(lit), tray(lit, 2m))
 rule parted = symmetric neighbour(pair, quantity(tray(2m), n mod 3 = 1), optional(quantity(tray(c), n mod 3 = 1)))
 library short { trays 0..3 require parted }
+library long { trays 0..14 require parted }
 """)
 
     def pair(p, i, j):
@@ -250,10 +251,17 @@ library short { trays 0..3 require parted }
         return any(ordered(q, i, j) for q in (p, p[::-1]) for i in range(len(p)) for j in range(i + 1, len(p) + 1))
 
     wanted = [sum(map(parted, itertools.product(trays, repeat=n))) for n in range(4)]
-    done = subprocess.run([tartan, "count", path, "--json", "--no-effects"], capture_output=True, text=True)
+    done = subprocess.run([tartan, "count", path, "-l", "short", "--json", "--no-effects"], capture_output=True, text=True)
     found = [int(row["kept"]) for row in json.loads(done.stdout or '{"by_length": []}')["by_length"]]
     if found != wanted:
         faults.append("remainders: %s, and not %s: %s" % (found, wanted, done.stderr[-1500:]))
+    chance = random.Random(3)
+    longer = [[chance.choice(trays[:chance.choice((4, 12))]) for _ in range(chance.randint(4, 14))] for _ in range(400)]
+    lines = [" | ".join("%dm %s %s" % (width, use, "lit" if lit else "-") for width, use, lit in p) + "\n" for p in longer]
+    wanted = [line for line, p in zip(lines, longer) if parted(p)]
+    done = subprocess.run([tartan, "prune", path, "-", "-l", "long", "--engine", "dfa"], input="".join(lines), capture_output=True, text=True)
+    if done.stdout.splitlines(keepends=True) != wanted or not 40 < len(wanted) < 360:
+        faults.append("remainders of longer plans: %d, and not %d: %s" % (done.stdout.count("\n"), len(wanted), done.stderr[-1500:]))
 
 
 RULES = 3  # a case, and one that uses itself

@@ -149,8 +149,6 @@ static tn_status lower_relation(const tn_lowering *lowering, const tn_postfix_no
     switch (node->code.opcode) {
     case TN_OP_TRAY:
         return tn_relate_tray(marked, classes, first, out, error);
-    case TN_OP_SOMEWHERE:
-        return tn_marked_somewhere(marked, in[0], out, error);
     case TN_OP_ONCE:
         *out = tn_dfa_share(in[0]);
         return TN_OK;
@@ -263,6 +261,53 @@ static tn_status lower_image(const tn_lowering *lowering, const tn_postfix_node 
     return status;
 }
 
+static tn_status somewhere(const tn_lowering *lowering, bool plain, const tn_dfa *relation, tn_dfa **out,
+                           tn_error *error)
+{
+    return (plain ? tn_marked_anywhere : tn_marked_somewhere)(&lowering->marked, relation, out, error);
+}
+
+static tn_status either_operand(tn_lowering *lowering, uint32_t function, uint32_t form, tn_dfa **parts, size_t *count,
+                                tn_error *error);
+
+/* SOMEWHERE of what a called function ends with OR of, as `symmetric` does: one or the other stretch is somewhere. Sets
+ * of guesses about both at once can be very many while those about each are few. TN_LIMIT: the call is of no such
+ * function, or one of them passes the bounds, too. */
+static tn_status somewhere_apart(tn_lowering *lowering, const tn_postfix_node *call, uint32_t form, bool plain,
+                                 tn_dfa **out, tn_error *error)
+{
+    tn_dfa *parts[TN_OPERANDS_MAX] = {NULL}, *found[2] = {NULL};
+    size_t count = 0;
+    uint32_t wanted;
+    if (call->code.opcode != TN_OP_CALL && call->code.opcode != TN_OP_MIRROR)
+        return TN_LIMIT;
+    called(lowering, call, form, &wanted);
+    tn_status status = either_operand(lowering, wanted / FORM_COUNT, wanted % FORM_COUNT, parts, &count, error);
+    for (size_t i = 0; status == TN_OK && i < 2; i++)
+        status = somewhere(lowering, plain, parts[i], &found[i], error);
+    if (status == TN_OK)
+        status = tn_dfa_product(found[0], found[1], TN_DFA_OR, "or", &lowering->bounds, out, error);
+    for (size_t i = 0; i < count; i++)
+        tn_dfa_free(parts[i]);
+    tn_dfa_free(found[0]);
+    tn_dfa_free(found[1]);
+    return status;
+}
+
+/* What makes the operand stands before the node. */
+static tn_status lower_somewhere(tn_lowering *lowering, const tn_postfix_node *node, uint32_t form, tn_dfa *const *in,
+                                 tn_dfa **out, tn_error *error)
+{
+    tn_error ignored;
+    tn_status status = somewhere(lowering, node->plain, in[0], out, error);
+    if (status != TN_LIMIT)
+        return status;
+    status = somewhere_apart(lowering, node - 1, form, node->plain, out, &ignored);
+    if (status != TN_OK && status != TN_LIMIT && error)
+        *error = ignored;
+    return status;
+}
+
 static tn_status lower_node(tn_lowering *lowering, const tn_postfix_node *node, uint32_t form, tn_dfa *const *in,
                             tn_dfa **out, tn_error *error)
 {
@@ -282,9 +327,7 @@ static tn_status lower_node(tn_lowering *lowering, const tn_postfix_node *node, 
     case TN_OP_IMAGE:
         return lower_image(lowering, node, form & FORM_REVERSED, out, error);
     case TN_OP_SOMEWHERE:
-        if (node->plain)
-            return tn_marked_anywhere(&lowering->marked, in[0], out, error);
-        break;
+        return lower_somewhere(lowering, node, form, in, out, error);
     default:
         break;
     }
@@ -560,6 +603,24 @@ static tn_status lower_until(tn_lowering *lowering, tn_postfix *code, uint32_t f
     tn_dfa_free(last);
     *count = pops;
     return TN_OK;
+}
+
+/* The operands of the OR that a lowered function of a relation ends with; TN_LIMIT: it ends otherwise. */
+static tn_status either_operand(tn_lowering *lowering, uint32_t function, uint32_t form, tn_dfa **parts, size_t *count,
+                                tn_error *error)
+{
+    tn_postfix code;
+    if (lowering->module->FUNCTION_records[function].kind == TN_FUNCTION_CIRCLE)
+        return TN_LIMIT;
+    tn_status status = tn_postfix_read(lowering->module, function, false, &code, error);
+    if (status != TN_OK)
+        return status;
+    const tn_postfix_node *last = code.count > 0 ? &code.nodes[code.count - 1] : NULL;
+    status = last && last->code.opcode == TN_OP_OR
+                 ? lower_until(lowering, &code, form, last->offset, parts, count, error)
+                 : TN_LIMIT;
+    tn_postfix_clear(&code);
+    return status;
 }
 
 tn_status tn_lower_operands(tn_lowering *lowering, uint32_t function, uint32_t offset, tn_dfa **parts, size_t *count,
