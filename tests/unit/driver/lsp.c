@@ -689,6 +689,39 @@ static void test_codes_have_pages(void **state)
     assert_false(links_codes("command:workbench.action", "codeDescription"));
 }
 
+/* Trays that stand for plans are counted while the file is edited, if that is quick; else that is said, and nothing of
+ * their values. */
+static void test_rows_of_plans(void **state)
+{
+    static const char quick[] = "schema house { width = 3m | 4m }\n"
+                                "measure front using house = sum(width)\n"
+                                "library houses using house { trays 1..2 }\n"
+                                "schema lots of houses { frontage = measure front }\n"
+                                "rule wrong using lots = tray(frontage 5m)\n";
+    static const char slow[] = "schema house { width = 3m | 4m  use = a | b }\n"
+                               "measure front using house = sum(width of tray(a))\n"
+                               "measure rest using house = sum(width of tray(b))\n"
+                               "library houses using house { trays 1..400 }\n"
+                               "schema lots of houses { frontage = measure front  rest = measure rest }\n"
+                               "rule wrong using lots = tray(frontage 5m)\n";
+    live l;
+    (void)state;
+    start_live(&l);
+    open_document(&l.session, "file:///quick.plan", quick);
+    await_diagnostics(&l, 1, "it can be 3m, 4m, 6m, 7m or 8m");
+    open_document(&l.session, "file:///slow.plan", slow);
+    fflush(l.session.input);
+    json_t *message = hear(&l);
+    while (!mentions(message, "slow.plan")) {
+        json_decref(message);
+        message = hear(&l);
+    }
+    assert_true(mentions(message, "the plans are not counted here"));
+    assert_false(mentions(message, "E0303"));
+    json_decref(message);
+    finish_live(&l);
+}
+
 static const char related[] =
     "use \"lahave\"\nrule wide = tray(12') or tray(8')\nrule one = tray(12')\n"
     "rule never allow W019 = tray(12') and not tray(12')\nrule first = neighbour(beginning, tray(4'))\n"
@@ -1291,6 +1324,7 @@ int main(void)
         cmocka_unit_test(test_schema_made_from_another),
         cmocka_unit_test(test_rename_in_files_that_are_not_open),
         cmocka_unit_test(test_codes_have_pages),
+                                       cmocka_unit_test(test_rows_of_plans),
         cmocka_unit_test(test_wrong_headers),
         cmocka_unit_test(test_wrong_messages),
         cmocka_unit_test(test_meaning),
