@@ -1,5 +1,6 @@
 /* Schemas of libraries where memory runs out at each allocation in turn: the joint distribution of measures, the census
- * that the compiler takes, and the plans that trays stand for. An error, and nothing is lost. */
+ * that the compiler takes, and the plans that trays stand for. An error, and nothing is lost. And modules whose trays
+ * stand for other plans than they say, which are refused. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -153,6 +154,42 @@ static tn_status standing(void)
     return status;
 }
 
+static void assert_refused(void)
+{
+    tn_standing_plans *plans = NULL;
+    tn_error error = {0};
+    assert_int_equal(tn_standing_plans_new(opened.houses, opened.lots, &plans, &error), TN_INVALID);
+    assert_int_equal(error.code, E_REFUSED_MODULE);
+    assert_null(plans);
+}
+
+/* Two trays change places, which stand for one plan and for two: all plans are as many as before. */
+static void test_other_numbers(void **state)
+{
+    tn_tray_plans_record *records = (tn_tray_plans_record *)(uintptr_t)opened.module->TRAY_PLANS_records;
+    size_t other = 1;
+    (void)state;
+    while (strcmp(tn_text(opened.module, records[other].plans), tn_text(opened.module, records[0].plans)) == 0)
+        other++;
+    tn_string plans = records[0].plans;
+    records[0].plans = records[other].plans;
+    records[other].plans = plans;
+    assert_refused();
+    records[other].plans = records[0].plans;
+    records[0].plans = plans;
+}
+
+/* A field that says something of plans, of which the module does not hold what. */
+static void test_nothing_said(void **state)
+{
+    tn_said_record *said = (tn_said_record *)(uintptr_t)opened.module->SAID_records;
+    uint32_t field = said[0].field;
+    (void)state;
+    said[0].field = 0;
+    assert_refused();
+    said[0].field = field;
+}
+
 static void test_joint(void **state)
 {
     (void)state;
@@ -174,6 +211,7 @@ static void test_standing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_joint), cmocka_unit_test(test_census),
-                                       cmocka_unit_test(test_standing)};
+                                       cmocka_unit_test(test_standing), cmocka_unit_test(test_other_numbers),
+                                       cmocka_unit_test(test_nothing_said)};
     return cmocka_run_group_tests(tests, setup, teardown);
 }
