@@ -334,6 +334,20 @@ static tn_status count_next(tn_compilation *compilation, const tn_compile_option
     return TN_OK;
 }
 
+/* Do its plans rest on itself? If not, those that they rest on could not be counted, which is said there. */
+static bool goes_round(const tn_imports *imports, const tn_ast_schema *first)
+{
+    const tn_ast_schema *schema = first;
+    for (size_t rounds = 0; rounds < 1000 && schema; rounds++) {
+        size_t unit;
+        const tn_ast_word *name = schema->of ? schema_of_library(imports, schema->of->text) : schema->from;
+        schema = name ? (const tn_ast_schema *)item_named(imports, TN_ITEM_SCHEMA, name->text, &unit) : NULL;
+        if (schema == first)
+            return true;
+    }
+    return schema != NULL;
+}
+
 tn_status tn_rows_count(tn_compilation *compilation, const tn_compile_options *options, const tn_imports *imports,
                         tn_rows_compile *compile, tn_error *error)
 {
@@ -349,7 +363,7 @@ tn_status tn_rows_count(tn_compilation *compilation, const tn_compile_options *o
                 schema->counted = TN_NEW(compilation->arena, tn_ast_census);
                 if (!schema->counted)
                     return tn_fail_memory(error);
-                schema->counted->circular = true;
+                schema->counted->circular = goes_round(imports, schema);
             }
     return status;
 }

@@ -45,6 +45,14 @@ def write(seed, name, text):
 
 # ---- houses, and what is said of them
 
+# Lamps that no two neighbours have, and each home has: what is left of them is a projected library.
+LIT = "schema lit from house { lamp = none | bright }\nrule unlit using lit = tray(home, lamp none) or neighbour(tray(bright), tray(bright))\n"
+
+
+def can_be_lit(house):
+    return not any(a[1] == b[1] == "home" for a, b in zip(house, house[1:]))
+
+
 USES = ("home", "shop", "yard")
 HOUSE = "schema house {\n  width = 2m | 3m | 5m\n  use = home | shop | yard\n  number floor = 3m * width\n}\n"
 TRAYS = [(w, u) for w in (2, 3, 5) for u in USES]
@@ -154,9 +162,11 @@ def trays_of(houses, fields):
 def check(seed):
     R = random.Random(seed)
     prune, drops = R.choice(PRUNES)
-    longest = R.randint(1, 3)
-    houses = [h for n in range(R.choice([0, 1, 1]), longest + 1) for h in itertools.product(TRAYS, repeat=n) if not drops(h)]
-    shortest = len(houses[0])
+    shortest, longest = R.choice([0, 1, 1]), R.randint(1, 3)
+    houses = [h for n in range(shortest, longest + 1) for h in itertools.product(TRAYS, repeat=n) if not drops(h)]
+    projected = R.random() < .2
+    if projected:
+        houses = [h for h in houses if can_be_lit(h)]
     measures, rules, fields = fields_of(R)
     trays = trays_of(houses, fields)
     names = [name for name, _, _ in fields]
@@ -167,7 +177,11 @@ def check(seed):
         fields = fields + [("side", "sunny | shady", None)]
         names, trays = names + ["side"], trays_of(houses, fields)
     most = next(n for n in (4, 3, 2, 1) if len(trays) ** n <= 6000 or n == 1)
-    text = HOUSE + f"library houses using house {{ trays {shortest}..{longest}  prune {prune} }}\n"
+    text = HOUSE
+    if projected:
+        text += LIT + f"library lit-houses using lit {{ trays {shortest}..{longest}  prune unlit }}\nlibrary houses from lit-houses onto house {{ prune {prune} }}\n"
+    else:
+        text += f"library houses using house {{ trays {shortest}..{longest}  prune {prune} }}\n"
     text += "".join(f"measure m{i} using house = {words}\n" for i, (words, _) in enumerate(measures))
     text += "".join(f"rule r{i} using house = {words}\n" for i, (words, _) in enumerate(rules))
     text += "schema lots of houses {\n" + "".join(f"  {name} = {said}\n" for name, said, _ in fields) + "}\n"
@@ -227,6 +241,8 @@ def check(seed):
         if abs(hits / draws - chance) > 5 * (chance * (1 - chance) / draws) ** .5:
             same(seed, "drawn in proportion", hits / draws, chance)
     check_houses(seed, R, path, module, kept, trays)
+    if kept:
+        check_blocks(seed, path, names, kept)
 
 
 # ---- rows of houses, one by one
@@ -276,6 +292,35 @@ def check_houses(seed, R, path, module, kept, trays):
             chance = 1 / total
             if abs(draws.count(row) / 300 - chance) > 5 * (chance * (1 - chance) / 300) ** .5:
                 same(seed, "rows of houses drawn evenly", draws.count(row) / 300, chance)
+
+
+# ---- rows of rows: a tray stands for a row of trays
+
+def check_blocks(seed, path, names, kept):
+    """Blocks of the street: how many lots a row has, and whether its first two are alike in their first field."""
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    field = names[0]
+    value = "v" if field.startswith("is") else f"{field} v"
+    alike_too = text + (f"measure lots-of using lots = quantity(any)\nrule twins using lots = some v in {field} (neighbour(beginning, tray({value}), tray({value})))\n"
+                        "schema blocks of street { many_lots = measure lots-of  twins = rule twins }\n"
+                        "library town using blocks { trays 0..2  require sum(many_lots) <= 5 }\n")
+    path = write(seed, "blocks.plan", alike_too)
+    stands = {}
+    for row in kept:
+        twins = len(row) > 1 and row[0][0][0] == row[1][0][0]
+        stands.setdefault((len(row), twins), []).append(" | ".join(" ".join(values) for values, _ in row))
+    blocks = sorted(stands.items())
+    shown = {s["name"]: s for s in json.loads(run("schema", path, "--json"))["schemas"]}["blocks"]
+    same(seed, "blocks", [(t["tray"], int(t["plans"])) for t in shown["tray_plans"]],
+         [(f"{many} {'twins' if twins else '-'}", len(rows)) for (many, twins), rows in blocks])
+    towns = [t for n in range(3) for t in itertools.product(blocks, repeat=n) if sum(b[0][0] for b in t) <= 5]
+    first = list(itertools.islice((" | ".join(f"{b[0][0]} {'twins' if b[0][1] else '-'} [{row}]" for b, row in zip(t, chosen))
+                                   for t in towns for chosen in itertools.product(*[b[1] for b in t])), 500))
+    asked = ["--library", "town", "--plans"]
+    same(seed, "rows of rows", run("enumerate", path, *asked, "--limit", "500").split("\n")[:-1], first)
+    for k in {0, len(first) - 1} if first else ():
+        same(seed, f"rank of row of rows {k}", run("rank", path, *asked, "--", first[k]).strip(), str(k))
 
 
 # ---- the reference's own rows

@@ -250,6 +250,8 @@ static bool check_name(tn_check *check, const tn_checked_schema *schema, tn_ast_
     figure->field = tn_field_find(schema, name);
     const tn_checked_field *field = figure->field == TN_NONE ? NULL : &schema->fields[figure->field];
     *amount = (tn_sum_amount){.power = 1};
+    if (field && field->ast->form == TN_FORM_MEASURE && !tn_schema_census(schema)) /* nobody knows what it is */
+        return false;
     if (field && (field->kind == TN_FIELD_LENGTH || field->kind == TN_FIELD_ZONE))
         return tn_check_detail(check, field, figure->detail);
     if (field && field->ordered) { /* the place of the tray's value, or what a measure says */
