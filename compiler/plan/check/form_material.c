@@ -121,7 +121,8 @@ static void unknown_part(tn_check *check, const tn_checked_form *form, const tn_
     size_t count = 0, room = sizeof names / sizeof *names;
     for (; count < TN_OF_COUNT; count++)
         names[count] = tn_names_OF[count];
-    names[count++] = "guard";
+    if (form->guard > 0)
+        names[count++] = "guard";
     for (uint32_t i = 0; i < form->layer_count; i++)
         names[count++] = form->layers[i].ast->name->text;
     for (uint32_t i = 0; i < form->opening_count; i++)
