@@ -53,19 +53,39 @@ static tn_status add_tiles(cells_explaining *e, uint32_t cell, uint32_t function
     return status;
 }
 
+/* A function without tiles, whose ways do not fit. */
+static tn_status add_ways(cells_explaining *e, uint32_t cell, uint32_t function, tn_buffer *why, tn_error *error)
+{
+    tn_way_fault fault;
+    char text[TN_NAME_MAX + 200];
+    tn_status status = tn_bare_fault(&e->bare, cell, function, &fault, error);
+    if (status != TN_OK)
+        return status;
+    tn_way_fault_text(e->form, &fault, text, sizeof text);
+    bool good = tn_buffer_printf(why, "%sas %s, %s", why->size > 0 ? "; " : "",
+                                 tn_text(e->form->module, tn_form_rule(e->form, function)->name), text);
+    return good ? TN_OK : tn_fail_memory(error);
+}
+
 static tn_status set_cell(cells_explaining *e, uint32_t cell, tn_bare_cell *to, tn_error *error)
 {
     const tn_house *house = &e->bare.house;
     char name[96];
+    tn_buffer why = {0};
     tn_cell_text(house, cell, name, sizeof name);
     to->cell = strdup(name);
     tn_status status = to->cell ? TN_OK : tn_fail_memory(error);
     for (uint32_t f = 0; status == TN_OK && f < tn_form_functions(e->form); f++) {
         if (!tn_cell_may(house, &house->cells[cell], f))
             continue;
+        size_t before = to->tiles.count;
         to->usable = true;
         status = add_tiles(e, cell, f, to, error);
+        if (status == TN_OK && to->tiles.count == before)
+            status = add_ways(e, cell, f, &why, error);
     }
+    to->has_why = why.size > 0;
+    to->why = why.data; /* freed with the answer */
     return status;
 }
 

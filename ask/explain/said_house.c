@@ -39,7 +39,9 @@ void tn_explained_covered_said(const tn_covered_opening *covered, tn_buffer *out
 
 void tn_explained_bare_said(const tn_bare_cell *cell, bool of_house, tn_buffer *out)
 {
-    if (cell->has_why)
+    if (cell->has_why && !of_house)
+        tn_buffer_printf(out, "%s: people cannot go about there, whatever is in its walls: %s", cell->cell, cell->why);
+    else if (cell->has_why)
         tn_buffer_printf(out, "people cannot go about in %s, so this is no house of any library: %s", cell->cell,
                          cell->why);
     else if (of_house)

@@ -4,6 +4,7 @@
 #include "driver/house/survey_parts.h"
 #include "runtime/house/count/houses.h"
 #include "runtime/house/solids.h"
+#include "runtime/house/ways.h"
 #include "runtime/plan/library/library.h"
 
 static void warn_functions(const tn_survey *s)
@@ -64,8 +65,12 @@ static void say_in_way(const tn_survey *s, uint32_t tile, const tn_tile_failure 
         return;
     }
     tn_tile_failure_text(&s->form, tile, further, tn_house_length_style(&s->house), why, sizeof why);
-    tn_note(tn_survey_list(s), d, NULL, "where it comes furthest, %s", why);
-    if (further->obstacle == TN_TILE_MEETS_BOX)
+    bool stops = tn_tile_failure_stops(further);
+    tn_note(tn_survey_list(s), d, NULL, stops ? "%s" : "where it comes furthest, %s", why);
+    if (stops)
+        tn_help(tn_survey_list(s), d,
+                "leave a gap between its items that is as wide as the `way`, or keep free what can be reached");
+    else if (further->obstacle == TN_TILE_MEETS_BOX)
         tn_help(tn_survey_list(s), d, "items of a tile may not overlap, nor be in what it keeps free");
     else
         tn_help(tn_survey_list(s), d,

@@ -5,36 +5,63 @@
 
 #include "runtime/base/array.h"
 #include "runtime/house/form/form.h"
+#include "runtime/house/ways.h"
 
 enum {
     WALLS_MAX = 64,      /* of one cell; one with more is taken for furnished */
+    CHOICES_MAX = 64,    /* for one of them; likewise */
     CASES_MAX = 4096,    /* ways in which its walls can be; likewise */
     STEPS_MAX = 1000000, /* tiles that are tried */
 };
 
-/* The walls around a cell with its function, each with the kinds that it may have. */
+/* What may be in a wall; if the form asks for ways, with what is beyond it then. */
+typedef struct tn_wall_choice {
+    uint32_t kind;
+    tn_face_view view;
+} tn_wall_choice;
+
+/* The walls around a cell with its function, each with what may be in it. views: [faces] of the case at hand, owned. */
 typedef struct tn_walls {
     tn_house *house;
     uint32_t cell, count;
-    uint32_t faces[WALLS_MAX], at[WALLS_MAX], kind_count[WALLS_MAX];
-    uint32_t kinds[WALLS_MAX][TN_FACE_KINDS_MAX];
+    uint32_t faces[WALLS_MAX], at[WALLS_MAX], choice_count[WALLS_MAX];
+    tn_wall_choice choices[WALLS_MAX][CHOICES_MAX];
+    tn_face_view *views;
+    size_t view_room;
     bool too_many;
 } tn_walls;
 
 /* ---- walls */
 
-static void add_kinds(tn_walls *w, const tn_face *face)
+static void add_choice(tn_walls *w, uint32_t number, uint32_t kind)
 {
-    uint32_t options[TN_FACE_KINDS_MAX], wall = w->count, known = w->kind_count[wall];
-    size_t count = tn_face_options(w->house, face, options);
-    for (size_t i = 0; i < count; i++) {
-        uint32_t k = 0;
-        while (k < known && w->kinds[wall][k] != options[i])
-            k++;
-        if (k == known)
-            w->kinds[wall][known++] = options[i];
-    }
-    w->kind_count[wall] = known;
+    tn_face *face = &w->house->faces[number];
+    tn_wall_choice choice = {.kind = kind}, *known = w->choices[w->count];
+    face->kind = kind;
+    if (!w->house->ways_unknown)
+        choice.view = tn_face_seen(w->house, number, w->cell);
+    for (uint32_t i = 0; i < w->choice_count[w->count]; i++)
+        if (known[i].kind == kind && known[i].view.beyond == choice.view.beyond &&
+            known[i].view.leaf == choice.view.leaf)
+            return;
+    w->too_many |= w->choice_count[w->count] == CHOICES_MAX;
+    if (!w->too_many)
+        known[w->choice_count[w->count]++] = choice;
+}
+
+static void add_kinds(tn_walls *w, uint32_t number)
+{
+    uint32_t options[TN_FACE_KINDS_MAX];
+    size_t count = tn_face_options(w->house, &w->house->faces[number], options);
+    for (size_t i = 0; i < count; i++)
+        add_choice(w, number, options[i]);
+}
+
+static void take(tn_walls *w, uint32_t wall, uint32_t choice)
+{
+    w->at[wall] = choice;
+    w->house->faces[w->faces[wall]].kind = w->choices[wall][choice].kind;
+    w->views[w->faces[wall]] = w->choices[wall][choice].view;
 }
 
 /* With each function that the cell on the other side may have. */
@@ -46,24 +73,26 @@ static void add_wall(tn_walls *w, uint32_t number)
     if (w->too_many)
         return;
     w->faces[w->count] = number;
-    w->kind_count[w->count] = w->at[w->count] = 0;
+    w->choice_count[w->count] = 0;
     for (uint32_t f = 0; other != TN_NO_CELL && f < tn_form_functions(w->house->form); f++) {
         if (!tn_cell_may(w->house, &w->house->cells[other], f))
             continue;
         before = w->house->cells[other].function;
         w->house->cells[other].function = f;
-        add_kinds(w, face);
+        add_kinds(w, number);
         w->house->cells[other].function = before;
     }
-    if (w->kind_count[w->count] == 0)
-        add_kinds(w, face);
-    face->kind = w->kinds[w->count++][0];
+    if (w->choice_count[w->count] == 0)
+        add_kinds(w, number);
+    w->count++;
 }
 
-/* All other walls are open: then they are in no tile's way. */
-static void gather_walls(tn_house *house, uint32_t cell, tn_walls *w)
+/* All other walls are open: then they are in no tile's way. Leave it with leave_walls. */
+static tn_status gather_walls(tn_house *house, uint32_t cell, tn_walls *w, tn_error *error)
 {
     uint64_t cases = 1;
+    if (!tn_array_reserve(&w->views, &w->view_room, 0, (size_t)house->face_count + 1, sizeof *w->views))
+        return tn_fail_memory(error);
     w->house = house;
     w->cell = cell;
     w->count = 0;
@@ -76,16 +105,31 @@ static void gather_walls(tn_house *house, uint32_t cell, tn_walls *w)
             (house->faces[i].first == cell || house->faces[i].second == cell))
             add_wall(w, i);
     for (uint32_t i = 0; i < w->count && cases <= CASES_MAX; i++)
-        cases *= w->kind_count[i];
+        cases *= w->choice_count[i];
     w->too_many |= cases > CASES_MAX;
+    for (uint32_t i = 0; i < w->count; i++)
+        take(w, i, 0);
+    house->views = w->views;
+    return TN_OK;
+}
+
+static void leave_walls(tn_walls *w)
+{
+    w->house->views = NULL;
+}
+
+static void free_walls(tn_walls *w)
+{
+    if (w)
+        free(w->views);
+    free(w);
 }
 
 /* The next case; false after the last. */
 static bool turn(tn_walls *w)
 {
     for (uint32_t i = w->count; i-- > 0;) {
-        w->at[i] = w->at[i] + 1 < w->kind_count[i] ? w->at[i] + 1 : 0;
-        w->house->faces[w->faces[i]].kind = w->kinds[i][w->at[i]];
+        take(w, i, w->at[i] + 1 < w->choice_count[i] ? w->at[i] + 1 : 0);
         if (w->at[i] > 0)
             return true;
     }
@@ -112,24 +156,29 @@ static bool has_tiles(const tn_house *house, uint32_t cell)
     return false;
 }
 
-/* Does some tile of the cell's function stand, with some walls around it? */
+/* Is there anything to ask? Of a function without tiles, ways; but of flights of stairs the whole stack. */
+static bool is_asked(const tn_house *house, uint32_t cell)
+{
+    return has_tiles(house, cell) ||
+           (!house->ways_unknown && tn_form_is_bare(house->form, house->cells[cell].function));
+}
+
+/* Does some tile of the cell's function stand, and can one go about, with some walls around it? */
 static tn_status may_stand(tn_house *house, uint32_t cell, tn_walls *w, uint32_t *steps, bool *stands, tn_error *error)
 {
-    tn_status status = TN_OK;
-    *stands = !has_tiles(house, cell);
+    *stands = !is_asked(house, cell);
     if (*stands)
         return TN_OK;
-    gather_walls(house, cell, w);
+    tn_status status = gather_walls(house, cell, w, error);
     *stands = w->too_many;
-    do {
-        tn_variants tiles = {0};
-        if (++*steps > STEPS_MAX)
-            return too_long(error);
-        if (!*stands)
-            status = tn_tile_variants(house, cell, &tiles, error);
-        *stands |= tiles.count > 0;
-        tn_variants_clear(&tiles);
-    } while (status == TN_OK && !*stands && turn(w));
+    while (status == TN_OK && !*stands) {
+        size_t fillings = 0;
+        status = ++*steps > STEPS_MAX ? too_long(error) : tn_cell_fillings(house, cell, &fillings, error);
+        *stands = fillings > 0;
+        if (!turn(w))
+            break;
+    }
+    leave_walls(w);
     return status;
 }
 
@@ -181,7 +230,7 @@ tn_status tn_bare_find(const tn_house_form *form, const tn_tray *trays, size_t l
 {
     uint32_t shapes[TN_CHOICES_MAX] = {0}, steps = 0;
     bool first = true;
-    tn_walls *walls = malloc(sizeof *walls);
+    tn_walls *walls = calloc(1, sizeof *walls);
     tn_status status = walls ? TN_OK : tn_fail_memory(error);
     *bare = (tn_bare_cells){0};
     do {
@@ -192,11 +241,11 @@ tn_status tn_bare_find(const tn_house_form *form, const tn_tray *trays, size_t l
             tn_house_clear(&house);
             continue;
         }
-        house.ways_unknown = true; /* what cells beside it are is not known */
+        house.ways_unknown = !tn_form_asks_ways(form);
         status = see_section(&house, walls, &steps, first, bare, error);
         first = false;
     } while (status == TN_OK && (first || bare->count > 0) && tn_form_next_section(form, shapes));
-    free(walls);
+    free_walls(walls);
     return status;
 }
 
@@ -209,26 +258,62 @@ void tn_bare_clear(tn_bare_cells *bare)
 
 /* ---- why */
 
-tn_status tn_bare_why(tn_bare_cells *bare, uint32_t cell, uint32_t function, uint32_t tile, tn_tile_failure *failure,
-                      tn_error *error)
+/* What is found with the walls of a case: comes it further than what was found before? */
+typedef tn_status see_case(void *context, const tn_house *house, uint32_t cell, tn_error *error);
+
+static tn_status each_case(tn_house *house, uint32_t cell, uint32_t function, see_case *see, void *context,
+                           tn_error *error)
 {
-    tn_house *house = &bare->house;
-    tn_walls *walls = malloc(sizeof *walls);
+    tn_walls *walls = calloc(1, sizeof *walls);
     tn_status status = walls ? TN_OK : tn_fail_memory(error);
-    *failure = (tn_tile_failure){.obstacle = TN_TILE_NO_SIDE};
-    if (status == TN_OK) {
-        house->cells[cell].function = function;
-        gather_walls(house, cell, walls);
-    }
+    house->cells[cell].function = function;
+    if (status == TN_OK)
+        status = gather_walls(house, cell, walls, error);
     while (status == TN_OK) {
-        tn_tile_failure one;
-        status = tn_tile_fails(house, cell, tile, &one, error);
-        if (status == TN_OK && one.obstacle > failure->obstacle)
-            *failure = one;
+        status = see(context, house, cell, error);
         if (!turn(walls))
             break;
     }
     house->cells[cell].function = TN_NO_FUNCTION;
-    free(walls);
+    house->views = NULL;
+    free_walls(walls);
     return status;
+}
+
+typedef struct tile_seen {
+    uint32_t tile;
+    tn_tile_failure *failure;
+} tile_seen;
+
+static tn_status see_tile(void *context, const tn_house *house, uint32_t cell, tn_error *error)
+{
+    const tile_seen *seen = context;
+    tn_tile_failure one;
+    tn_status status = tn_tile_fails(house, cell, seen->tile, &one, error);
+    if (status == TN_OK && one.obstacle > seen->failure->obstacle)
+        *seen->failure = one;
+    return status;
+}
+
+tn_status tn_bare_why(tn_bare_cells *bare, uint32_t cell, uint32_t function, uint32_t tile, tn_tile_failure *failure,
+                      tn_error *error)
+{
+    tile_seen seen = {tile, failure};
+    *failure = (tn_tile_failure){.obstacle = TN_TILE_NO_SIDE};
+    return each_case(&bare->house, cell, function, see_tile, &seen, error);
+}
+
+static tn_status see_fault(void *context, const tn_house *house, uint32_t cell, tn_error *error)
+{
+    tn_way_fault *fault = context, one;
+    tn_status status = tn_cell_ways(house, cell, &one, error);
+    if (status == TN_OK && one.fault > fault->fault)
+        *fault = one;
+    return status;
+}
+
+tn_status tn_bare_fault(tn_bare_cells *bare, uint32_t cell, uint32_t function, tn_way_fault *fault, tn_error *error)
+{
+    *fault = (tn_way_fault){0};
+    return each_case(&bare->house, cell, function, see_fault, fault, error);
 }

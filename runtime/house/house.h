@@ -237,7 +237,8 @@ bool tn_tile_is_for(const tn_house *house, uint32_t cell, uint32_t tile);
 /* TN_TILE_STANDS where it does. TN_MEMORY. */
 tn_status tn_tile_fails(const tn_house *house, uint32_t cell, uint32_t tile, tn_tile_failure *failure, tn_error *error);
 
-/* The same in an empty room of this clear size, whose sides are of any kind. */
+/* The same in an empty room of this clear size, whose sides are of any kind; of ways it is asked whether one can go
+ * from each space to keep to each other, wherever one comes in. */
 tn_status tn_tile_fails_in(const tn_house_form *form, int64_t wide, int64_t deep, int64_t height, uint32_t tile,
                            tn_tile_failure *failure, tn_error *error);
 

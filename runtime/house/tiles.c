@@ -16,6 +16,7 @@ typedef struct tn_room {
     size_t taken_count, taken_room, posts;                              /* the first of the taken are posts */
     uint64_t kinds[TN_HOUSE_SIDE_COUNT][(TN_FACE_KINDS_MAX + 63) / 64]; /* on each side */
     bool ways;                                                          /* people have to be able to go about in it: */
+    bool anywhere; /* the same, where it is not known what its sides are */
     tn_cell_floor floor;
 } tn_room;
 
@@ -294,11 +295,35 @@ static tn_status ask_ways(tn_placing *p, const tn_variants *v, size_t count, boo
     return status;
 }
 
+/* The same where it is not known how one comes in: a person may stand half through each side. *good: can one go from
+ * each keep to each other then? */
+static tn_status ask_keeps(tn_placing *p, const tn_variants *v, size_t count, bool *good, tn_error *error)
+{
+    tn_rectangles *obstacles = &p->room->floor.obstacles, keeps = {0};
+    size_t keep = SIZE_MAX;
+    uint32_t last = p->tile->box_count > 0 ? p->tile->box_count - 1 : 0;
+    tn_status status = add_items(p, v, count, error);
+    if (status == TN_OK)
+        status = add_keeps(p, &keeps, error);
+    tn_floor asked = tn_cell_floor_of(&p->room->floor);
+    asked.clear = tn_rectangle_grown(&p->room->clear, asked.way / 2);
+    asked.keeps = keeps.items;
+    asked.keep_count = keeps.count;
+    if (status == TN_OK)
+        status = tn_floor_keeps_joined(&asked, &keep, error);
+    *good = status == TN_OK && (keep == SIZE_MAX || fail(p, TN_TILE_CLOSES_KEEP, last, keep_of(p, keep)));
+    obstacles->count = 0;
+    free(keeps.items);
+    return status;
+}
+
 /* Does the tile stand, and leaves it ways to go? *count: its items. */
 static tn_status try_to_stand(tn_placing *p, tn_variants *v, size_t *count, bool *good, tn_error *error)
 {
     *good = stands(p, v, count);
-    return *good && p->room->ways ? ask_ways(p, v, *count, good, error) : TN_OK;
+    if (*good && p->room->ways)
+        return ask_ways(p, v, *count, good, error);
+    return *good && p->room->anywhere ? ask_keeps(p, v, *count, good, error) : TN_OK;
 }
 
 /* ---- equal layouts count once */
@@ -465,37 +490,64 @@ tn_status tn_tile_stop(const tn_house *house, uint32_t cell, uint32_t tile, cons
     return status;
 }
 
+/* What people need in the cells that the tile is for, the least of it. */
+static int64_t least_way(const tn_house_form *form, uint32_t tile)
+{
+    int64_t least = form->record->way;
+    for (uint32_t f = 0; f < tn_form_functions(form); f++) {
+        int64_t own = tn_form_rule(form, f)->way;
+        if (own > 0 && own < least && is_for(form, tile, f))
+            least = own;
+    }
+    return least;
+}
+
+/* An empty room of a clear size, in which not more is known of ways than the tile itself says. */
+static tn_room room_of(const tn_house *house, int64_t wide, int64_t deep, int64_t height, uint32_t tile)
+{
+    tn_room room = {.house = house, .clear = {0, wide, 0, deep}, .height = height};
+    room.anywhere = tn_form_asks_ways(house->form);
+    room.floor.way = least_way(house->form, tile);
+    return room;
+}
+
 tn_status tn_tile_fails_in(const tn_house_form *form, int64_t wide, int64_t deep, int64_t height, uint32_t tile,
                            tn_tile_failure *failure, tn_error *error)
 {
     const tn_house house = {.form = form};
-    tn_room room = {.house = &house, .clear = {0, wide, 0, deep}, .height = height};
-    return find_failure(&room, tile, failure, error);
+    tn_room room = room_of(&house, wide, deep, height, tile);
+    tn_status status = find_failure(&room, tile, failure, error);
+    leave(&room);
+    return status;
 }
 
 tn_status tn_tile_turned_in(const tn_house_form *form, int64_t wide, int64_t deep, int64_t height, uint32_t tile,
                             bool *stands_there, tn_error *error)
 {
     const tn_house house = {.form = form};
-    tn_room room = {.house = &house, .clear = {0, wide, 0, deep}, .height = height};
+    tn_room room = room_of(&house, wide, deep, height, tile);
     tn_variants v = {0};
     tn_placing p;
     size_t count;
-    bool good = make_room(&v, form->module->TILE_records[tile].box_count);
-    *stands_there = good && turn(&room, tile, TN_HOUSE_BACK, &p) && stands(&p, &v, &count);
+    *stands_there = false;
+    tn_status status = make_room(&v, form->module->TILE_records[tile].box_count) ? TN_OK : tn_fail_memory(error);
+    if (status == TN_OK && turn(&room, tile, TN_HOUSE_BACK, &p))
+        status = try_to_stand(&p, &v, &count, stands_there, error);
     tn_variants_clear(&v);
-    return good ? TN_OK : tn_fail_memory(error);
+    leave(&room);
+    return status;
 }
 
 tn_status tn_tile_variants_in(const tn_house_form *form, int64_t wide, int64_t deep, int64_t height, uint32_t tile,
                               tn_variants *variants, tn_error *error)
 {
     const tn_house house = {.form = form};
-    tn_room room = {.house = &house, .clear = {0, wide, 0, deep}, .height = height};
+    tn_room room = room_of(&house, wide, deep, height, tile);
     tn_status status = TN_OK;
     *variants = (tn_variants){.wanted = true};
     for (size_t i = 0; status == TN_OK && i < sizeof all_sides / sizeof *all_sides; i++)
         status = try_side(&room, tile, all_sides[i], variants, error);
+    leave(&room);
     return status;
 }
 

@@ -407,6 +407,27 @@ tn_status tn_floor_fits(const tn_floor *floor, bool *fits, tn_error *error)
     return status;
 }
 
+tn_status tn_floor_keeps_joined(const tn_floor *floor, size_t *keep, tn_error *error)
+{
+    tn_cut_plane plane = {.floor = floor};
+    bool ok = find_edges(&plane) && find_free(&plane) && find_parts(&plane);
+    size_t words = (size_t)plane.parts / 64 + 1;
+    uint64_t *sets = ok ? calloc(2 * words, sizeof *sets) : NULL;
+    *keep = SIZE_MAX;
+    if (sets)
+        memset(sets, 0xff, words * sizeof *sets);
+    for (size_t k = 0; sets && *keep == SIZE_MAX && k < floor->keep_count; k++) {
+        memset(sets + words, 0, words * sizeof *sets);
+        find_touched(&plane, tn_rectangle_grown(&floor->keeps[k], floor->way / 2), sets + words);
+        keep_common(sets, sets + words, words);
+        *keep = is_empty(sets, words) ? k : SIZE_MAX;
+    }
+    ok = sets != NULL;
+    free(sets);
+    clear_plane(&plane);
+    return ok ? TN_OK : tn_fail_memory(error);
+}
+
 /* ---- where one stops */
 
 /* The parts that are touched by all that is asked before the fault; where that is a keep, by all that is asked. */

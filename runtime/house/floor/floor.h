@@ -82,6 +82,10 @@ tn_status tn_floor_stop_find(const tn_floor *floor, const tn_floor_answer *answe
                              tn_error *error);
 void tn_floor_stop_clear(tn_floor_stop *stop);
 
+/* Can a person go from each keep to each other, wherever one comes in? *keep: the first that is not joined with those
+ * before it; SIZE_MAX: there is none. TN_MEMORY. */
+tn_status tn_floor_keeps_joined(const tn_floor *floor, size_t *keep, tn_error *error);
+
 /* Does the leaf have room? */
 bool tn_floor_leaf_has_room(const tn_floor *floor, size_t leaf);
 

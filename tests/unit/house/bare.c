@@ -26,7 +26,7 @@ static const char written[] =
     "face cell(hall) outside = %s  face cell(any) outside = %s\n"
     "tile table for hall { item table left %u'..right %u', back %u'..front %u', up 0..3' }\n"
     "tile bed for room, hall { against wall item bed left 1'..%u', back 0..%u', up 0..2' }\n"
-    "tile bench for seat { against window item bench left %u'..right 0, back 0..2' } }\n"
+    "tile bench for %s { against window item bench left %u'..right 0, back 0..2' } %s }\n"
     "library plans using s { trays 1..2 }\n"
     "library all from plans in huts { }  library some from plans in huts { require cell(hall) }\n";
 
@@ -40,19 +40,31 @@ static void write_form(uint64_t *s, char *text, size_t size)
 {
     static const char *const bodies[] = {"open", "dense"}, *const rests[] = {"", ", not 8'", ", 10'", " open"},
                              *const between[] = {"wall", "open | door", "door"},
-                             *const outside[] = {"wall", "window", "door", "window | wall"};
+                             *const outside[] = {"wall", "window", "door", "window | wall"},
+                             *const ways[] = {"", "", "way 2'6\"", "way 3'"};
     const char *body = bodies[draw(s, 2)], *room = rests[draw(s, 4)], *seat = rests[draw(s, 4)];
     const char *inner = between[draw(s, 3)], *first = outside[draw(s, 4)], *other = outside[draw(s, 4)];
     uint32_t n[9];
     for (int i = 0; i < 9; i++)
         n[i] = draw(s, 4);
+    const char *sitting = draw(s, 2) ? "seat" : "hall", *way = ways[draw(s, 4)];
     snprintf(text, size, written, body, room, seat, 1 + draw(s, 4), draw(s, 3), inner, first, other, n[0], n[1], n[2],
-             n[3], 4 + n[4] + n[5], 3 + n[6] + n[7], 2 * n[8]);
+             n[3], 4 + n[4] + n[5], 3 + n[6] + n[7], sitting, 2 * n[8], way);
 }
 
 typedef struct tally {
-    size_t empty, explained, no_function, no_tile;
+    size_t empty, explained, no_function, no_tile, no_way;
 } tally;
+
+/* Nobody can go about in a bare cell whose function has no tiles. */
+static void check_ways(tn_bare_cells *bare, uint32_t cell, uint32_t function, tally *t)
+{
+    tn_way_fault fault;
+    tn_error error = {0};
+    assert_int_equal(tn_bare_fault(bare, cell, function, &fault, &error), TN_OK);
+    assert_int_not_equal(fault.fault, TN_FLOOR_FITS);
+    t->no_way++;
+}
 
 /* Each tile of each function that a bare cell may have is kept out by something. */
 static void check_cell(test_house *made, tn_bare_cells *bare, uint32_t cell, tally *t)
@@ -63,17 +75,21 @@ static void check_cell(test_house *made, tn_bare_cells *bare, uint32_t cell, tal
         if (!tn_cell_may(&bare->house, &bare->house.cells[cell], f))
             continue;
         may = true;
+        bool tiles = false;
         for (uint32_t i = form->tile_first; i < form->tile_first + form->tile_count; i++) {
             tn_tile_failure failure;
             tn_error error = {0};
             bare->house.cells[cell].function = f;
             bool meant = tn_tile_is_for(&bare->house, cell, i);
+            tiles |= meant;
             if (!meant)
                 continue;
             assert_int_equal(tn_bare_why(bare, cell, f, i, &failure, &error), TN_OK);
             assert_int_not_equal(failure.obstacle, TN_TILE_STANDS);
         }
         bare->house.cells[cell].function = TN_NO_FUNCTION;
+        if (!tiles)
+            check_ways(bare, cell, f, t);
     }
     t->no_function += !may;
     t->no_tile += may;
@@ -120,9 +136,10 @@ static void test_drawn(void **state)
         tn_house_listing_free(houses);
         test_house_clear(&made);
     }
-    print_message("%zu plans without a house, %zu explained: %zu cells without a function, %zu without a tile\n",
-                  t.empty, t.explained, t.no_function, t.no_tile);
-    assert_true(t.no_function > 100 && t.no_tile > 100 && t.explained * 10 > t.empty * 8);
+    print_message("%zu plans without a house, %zu explained: %zu cells without a function, %zu without a tile, %zu "
+                  "functions without a way\n",
+                  t.empty, t.explained, t.no_function, t.no_tile, t.no_way);
+    assert_true(t.no_function > 100 && t.no_tile > 100 && t.no_way > 20 && t.explained * 10 > t.empty * 8);
 }
 
 int main(void)
