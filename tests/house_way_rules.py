@@ -68,14 +68,19 @@ FRONT = dict(more="face cell(any) outside back = party\n  face cell(any) outside
 rule("a gap is passed that is exactly as wide as a person", SIDES, dict(things="item a back 0..1.5m item b front 1.5m..front 0"),
      dict(things="item a back 0..1.5m item b front 1.501m..front 0"))
 rule("a function may need less", SIDES, dict(things="item a back 0..1.6m item b front 1.6m..front 0", way="800mm\n  way 600mm for room"),
-     dict(things="item a back 0..1.6m item b front 1.6m..front 0", way="800mm\n  way 602mm for room"))
+     dict(things="item a back 0..1.6m item b front 1.6m..front 0", way="800mm\n  way 601mm for room"))
 rule("what hangs as high as a person is not in the way", SIDES, dict(things="item a up 2m..2.1m"), dict(things="item a up 1.999m..2.1m"))
 rule("a person comes in by openings that are as wide", FRONT, dict(things="item a front 600mm..front 0", door="799mm"), dict(things="item a front 600mm..front 0", door="800mm"))
 rule("one stands at the door in the middle", FRONT, dict(things="item a left 0..1m, front 500mm..front 0"), dict(things="item a left 0..1.001m, front 500mm..front 0"))
-rule("a door may be nearer to an end", FRONT, dict(things="item a left 0..1.45m, front 500mm..front 0", words="sliding near right 500mm"),
-     dict(things="item a left 0..1.651m, front 500mm..front 0", words="sliding near right 500mm"))
+rule("a door may be nearer to an end", FRONT, dict(things="item a left 0..1.55m, front 500mm..front 0", words="sliding near right 500mm"),
+     dict(things="item a left 0..1.551m, front 500mm..front 0", words="sliding near right 500mm"))
 rule("what is kept free is reached if one touches it", FRONT, dict(things="item a back 0..1.5m keep b back 1.5m..1.51m"),
      dict(things="item a left 0..right 0, back 500mm..1m item c back 1m..1.5m keep b back 400mm..499mm"))
+# Between two cupboards is a niche of half a metre, before which a person has to stop.
+NICHE = "item a left 0..1m, back 0..1m item c left 1.5m..right 0, back 0..1m keep b left 1m..1.5m, back 0..{}"
+rule("what is kept free is reached by touching it, and not from a millimetre away", FRONT, dict(things=NICHE.format("1m")), dict(things=NICHE.format("999mm")))
+rule("a leaf is as deep as it is wide", FRONT, dict(things="item a front 901mm..front 900mm", words=""), dict(things="item a front 900mm..front 899mm", words=""))
+rule("one of two leaves is half as deep", FRONT, dict(things="item a front 611mm..front 610mm", words="", door="1.22m"), dict(things="item a front 610mm..front 609mm", words="", door="1.22m"))
 rule("a leaf has room", FRONT, dict(things="item a left 0..right 0, front 1.7m..front 900mm, up 1.9m..2m item b back 0..900mm", words=""),
      dict(things="item a left 0..1m, front 900mm..front 899mm", words=""))
 rule("a leaf that slides takes none", FRONT, dict(things="item a left 0..951mm, front 900mm..front 899mm"), dict(things="item a left 0..951mm, front 900mm..front 899mm", words=""))
@@ -121,12 +126,12 @@ form f of row {{
   headroom {headroom}
 }}
 library rows using row {{ trays {trays} }}
-library all from rows in f {{ require cell(stair) }}
+library all from rows in f {{ require cell(stair) {rule} }}
 """
 
 
 def stairs(**parts):
-    given = dict(width="1.1m", deep="5.25m", height="2.8m", near="", turn="", faces="face cell(any) outside = wall", headroom="2m", function="function stair at cell(any)", trays="1")
+    given = dict(width="1.1m", deep="5.25m", height="2.8m", near="", turn="", faces="face cell(any) outside = wall", headroom="2m", function="function stair at cell(any)", trays="1", rule="")
     global FORM
     form, FORM = FORM, STAIR
     try:
@@ -162,6 +167,17 @@ def beside(width):
 
 
 climb("a landing reaches over an open side onto a bare floor", {}, beside("950mm"), beside("949mm"))
+
+# Doors at both sides, each of which is below the last two steps if the flight is on its side: 2 m are below the twelfth, which begins 1.5 m from the front.
+climb("one passes beside a flight", dict(faces="face cell(any) outside back = door\n  face cell(any) outside front = door\n  face cell(any) outside = wall"),
+      dict(width="1.9m"), dict(width="1.899m"))
+climb("one stands below steps with headroom", dict(width="1.9m", near="near front 650mm", faces="face cell(any) outside left = door\n  face cell(any) outside right = door\n  "
+      "face cell(any) outside = wall"), dict(headroom="2m"), dict(headroom="2.001m"))
+# Doors of the upper storey at both sides, over the foot: the hole begins above the third step, 1.5 m from the back.
+climb("one walks over the first steps up to the hole", dict(width="1.9m | 2m", trays="3", function="function hall at cell(2m) function stair at cell(1.9m)",
+      rule="prune symmetric neighbour(beginning, tray(1.9m)) prune quantity(tray(1.9m), n > 1)",
+      faces="face cell(stair, upper) beside cell(hall) = door\n  face cell(any) beside cell(any) = wall\n  face cell(any) outside = wall"),
+      dict(near="near back 650mm"), dict(near="near back 651mm"))
 
 print(asked, "rules,", len(failures), "fail")
 print(*failures, sep="\n")
