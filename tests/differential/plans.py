@@ -115,9 +115,9 @@ for head in ("TRAY OPEN specifier CLOSE", "ANY"):
 
 # How often a production is chosen where that is not 1. What the grammar takes only in order to say better what is wrong with it is rare.
 MISTAKE = .04
-# What trays a schema of a library has is known once its plans are counted.
+# What trays a schema of a library has is known once its plans are counted; and so which numbers stand in plans of it.
 OF_LIBRARIES = ("item: schema NAME doc OF NAME OPEN_BRACE body CLOSE_BRACE", "field: field_head EQUAL BY_MEASURE NAME",
-                "field: field_head EQUAL BY_RULE NAME")
+                "field: field_head EQUAL BY_RULE NAME", "literal_word: AREA", "literal_word: DECIMAL")
 
 WEIGHTS = {
     **dict.fromkeys(OF_LIBRARIES, 0),
