@@ -103,6 +103,23 @@ static tn_status explain_cells(cells_explaining *e, const tn_numbered *n, const 
     return status;
 }
 
+/* Each cell could be as it has to be by itself: does any house of the form stand on the plan, whatever clauses say?
+ * What takes too much is left open. */
+static tn_status find_houseless(tn_numbered *n, const tn_plan *plan, tn_explained_cells *to, tn_error *error)
+{
+    tn_other_clauses none;
+    tn_numbered some;
+    mpz_t houses;
+    mpz_init(houses);
+    tn_other_clauses_set(&n->form, n->record, NULL, 0, &none);
+    tn_numbered_other(n, &none.module, &none.library, n->plans, &some);
+    tn_status status = tn_numbered_houses_on(&some, plan->trays, (uint32_t)plan->length, houses, error);
+    to->houseless = status == TN_OK && mpz_sgn(houses) == 0;
+    tn_numbered_other_close(&some);
+    mpz_clear(houses);
+    return status == TN_LIMIT ? TN_OK : status;
+}
+
 /* A plan, #P or #P: */
 static tn_status read_plan(tn_numbered *n, const tn_explain_request *request, tn_plan *plan)
 {
@@ -131,6 +148,8 @@ static tn_status explain_on(tn_numbered *n, const tn_explain_request *request, t
         status = tn_reply_new(&tn_message_explained_cells, answer, &error);
         if (status == TN_OK)
             status = explain_cells(&e, n, &plan, answer->value, &error);
+        if (status == TN_OK && e.bare.count == 0 && e.bare.house.form)
+            status = find_houseless(n, &plan, answer->value, &error);
         if (status != TN_OK)
             tn_session_fail(n->session, &error);
         else if (tn_answer_has_picture(&request->drawn))

@@ -63,6 +63,12 @@ void tn_explained_cells_said(const tn_explained_cells *explained, tn_buffer *out
         tn_buffer_printf(out, "form `%s` has no house: its `forbid` lines forbid every section", explained->form);
     else if (explained->bare.count > 0)
         tn_buffer_printf(out, "form `%s` has no house on this plan", explained->form);
+    else if (explained->houseless)
+        tn_buffer_printf(out,
+                         "form `%s` has no house on this plan, though each cell could be in one by itself: what is in "
+                         "the walls between cells and in the floors leaves no place for all of their tiles, flights of "
+                         "stairs and ways",
+                         explained->form);
     else
         tn_buffer_printf(out, "each cell of this plan can have a function, and a tile where that wants one");
 }

@@ -114,7 +114,7 @@ static void explain_cells_text(const tn_explained_cells *explained, tn_buffer *o
 {
     tn_explained_cells_said(explained, out);
     tn_buffer_printf(out, "\n");
-    if (!explained->sectionless && explained->bare.count == 0)
+    if (!explained->sectionless && !explained->houseless && explained->bare.count == 0)
         tn_buffer_printf(out,
                          "`tartan count` with --library %s --plan PLAN --clauses says how many houses it has, and what "
                          "each clause keeps out\n",

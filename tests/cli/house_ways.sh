@@ -39,4 +39,7 @@ is 'where it stands' "$(python3 -c 'import json; print(*[f["foot"] + f["head"] f
     '[4495000000, 5345000000, 3210000000, 4060000000, 3645000000, 4495000000, 3210000000, 4060000000]'
 golden no_place "tartan house $scratch/middle.plan '$house'"
 golden explained "tartan explain $scratch/middle.plan '$house' --library all"
+# Plans: a cell in which nobody could go about, whatever is in its walls; no place for a flight, though each cell could be in a house.
+golden plan_cut "tartan explain cut-off.plan '3m space:4m | 0.9m space:4m' --library cabins"
+golden plan_no_place "tartan explain no-place.plan '2.4m space:4.2m | 3.6m space:4.2m' --library cabins"
 finish
