@@ -77,7 +77,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token SECTION "`section`" VOID "`void`" NO "`no`" FUNCTION "`function`" AT "`at`" CELL "`cell`"
 %token OPENING "`opening`" WIDE "`wide`" HIGH "`high`" SILL "`sill`" CLEAR "`clear`" PASSAGE "`passage`"
 %token WAY "`way`" HEADROOM "`headroom`" GUARD "`guard`"
-%token FLIGHT "`flight`" RISE "`rise`" GOING "`going`" TURN "`turn`"
+%token FLIGHT "`flight`" RISE "`rise`" GOING "`going`" TURN "`turn`" WINDERS "`winders`"
 %token GLAZED "`glazed`" LEAFLESS "`leafless`" NEAR "`near`" SLIDING "`sliding`" MATERIAL "`material`" PRICE "`price`" PER "`per`"
 %token FACE "`face`" BESIDE "`beside`" ALONG "`along`" ACROSS "`across`" UNDER "`under`" OUTSIDE "`outside`"
 %token TILE "`tile`" FOR "`for`" AGAINST "`against`" DEEP "`deep`" ITEM "`item`"
@@ -108,7 +108,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <box_side> side_word
 %type <node> form_clause shape argument opening_part tile_part reach layer section_alternative section_item
 %type <list> form_clauses layers shapes arguments opening_parts tile_parts kinds or_names reaches section_items section_alternatives
-%type <word> size outside_side side number turn section
+%type <word> size outside_side side number going turn winders section
 %type <expr> material_where
 %type <expr> cells cell_ors cell_and cell_ands cell_not sections section_ors section_and section_ands section_not
 %type <expr> expression implied qualified disjunction ors and ands not compared comparable nearness additive term signed primary pattern_tray head_number
@@ -774,8 +774,8 @@ form_clause
     | function NAME doc AT cells                { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_FUNCTION, .name = $2, .doc = $3, .first = $5}); }
     | opening NAME doc WIDE size HIGH size opening_parts
                                                 { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_OPENING, .name = $2, .doc = $3, .length = $5, .high = $7, .parts = $8}); }
-    | flight NAME doc WIDE size RISE size DOTS size GOING size turn
-                                                { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_FLIGHT, .name = $2, .doc = $3, .length = $5, .low = $7, .high = $9, .going = $11, .detail = $12}); }
+    | flight NAME doc WIDE size RISE size DOTS size going turn winders
+                                                { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_FLIGHT, .name = $2, .doc = $3, .length = $5, .low = $7, .high = $9, .going = $10, .detail = $11, .winders = $12}); }
     | face cells relation cells EQUAL kinds     { $3.first = $2; $3.second = $4; $3.list = $6; $$ = tn_ast_form_clause_new(parse, @$, $3); }
     | face cells OUTSIDE outside_side EQUAL kinds
                                                 { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_FACE, .relation = TN_FACE_OUTSIDE, .first = $2, .detail = $4, .list = $6}); }
@@ -807,9 +807,19 @@ face: FACE                                      { yyerrok; };
 tile: TILE                                      { yyerrok; };
 material: MATERIAL                              { yyerrok; };
 
+going
+    : %empty                                    { $$ = NULL; } /* a spiral needs none */
+    | GOING size                                { $$ = $2; }
+    ;
+
 turn
     : %empty                                    { $$ = NULL; }
     | TURN NAME                                 { $$ = $2; }
+    ;
+
+winders
+    : %empty                                    { $$ = NULL; }
+    | WINDERS number                            { $$ = $2; }
     ;
 
 price

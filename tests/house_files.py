@@ -196,7 +196,8 @@ def compare(made, house):
     kinds = Counter(s["kind"] for s in house["solids"])
     walls = {(s["kind"], s["of"]) for s in house["solids"] if s["kind"] in ("outside", "party", "partition")}
     plain = {"wall", "party", "open", "floor", "stair"}
-    flights = {s["of"] for s in house["solids"] if s["kind"] == "flight"}
+    wedges = house.get("wedges", [])
+    flights = {s["of"] for s in house["solids"] if s["kind"] == "flight"} | {w["of"] for w in wedges}
     openings = [f for i, f in enumerate(house["faces"]) if f["kind"] not in plain and i not in flights]
     gables = {r["of"] for r in house["roofs"] if r["kind"] == "gable"}
     check("as many walls", len(of("IFCWALL")) == len(walls) + len(gables))
@@ -217,7 +218,8 @@ def compare(made, house):
     solid = sum(volume_of(made, n) for n in of("IFCWALL")) - below - sum(volume_of(made, n) for n in of("IFCOPENINGELEMENT"))
     check("walls less openings", solid == sum(box(s) for s in house["solids"] if s["kind"] in ("outside", "party", "partition")))
     rest = sum(volume_of(made, n) for name in ("IFCCOLUMN", "IFCSLAB", "IFCFURNITURE", "IFCSTAIR", "IFCRAILING") for n in of(name)) - over
-    check("other boxes", rest == sum(box(s) for s in house["solids"] if s["kind"] not in ("outside", "party", "partition")))
+    winding = F(sum(map(house_prisms.volume_of, wedges))) / 10**18
+    check("other boxes", rest == winding + sum(box(s) for s in house["solids"] if s["kind"] not in ("outside", "party", "partition")))
     materials = [spelt(made[n][1][0]) for n in of("IFCMATERIAL")]
     check("each material once", len(materials) == len(set(materials)))
     wanted = {p["material"] for p in house["parts"] if p.get("material") and int(p["number"])}
@@ -506,6 +508,11 @@ def check_parts(path, house):
         p, q, _ = house_prisms.plane_of(house_prisms.corners_of(r), 3)
         area["roof"] += house_prisms.plan_of(r) * slope(abs(p + q), 1)
         volume["roof"] += house_prisms.volume_of(r)
+    steps = {(w["of"], tuple(map(tuple, (c[:2] for c in w["corners"])))): w for w in house.get("wedges", [])}  # each has two pieces
+    for w in steps.values():
+        area[house["faces"][w["of"]]["kind"]] += house_prisms.plan_of(w)
+    for w in house.get("wedges", []):
+        volume[house["faces"][w["of"]]["kind"]] += house_prisms.volume_of(w)
     number["roof"] = len({r["of"] for r in house["roofs"] if r["kind"] == "roof"})
     for f in house["faces"]:
         number[f["kind"]] += f["kind"] not in ("wall", "party", "open", "floor", "stair") and has_leaf(f["kind"])

@@ -11,6 +11,7 @@ import random
 import subprocess
 import sys
 import tempfile
+from fractions import Fraction as F
 
 MM = 1000000
 DROP, GAP = 600 * MM, 100 * MM
@@ -26,7 +27,8 @@ class Form:
         wall, partition = r.choice((200, 280, 360)), r.choice((80, 110, 140))
         widths = r.sample((2400, 3000, 3600, 4200), 2)
         deep, wing, more = r.choice((3600, 4200, 5400)), r.choice((1800, 3000)), r.choice((0, 0, 2400))
-        flights = [f"wide {r.choice((800, 900))}mm rise 140mm..{r.choice((190, 220))}mm going {r.choice((200, 240, 260))}mm{turn}" for turn in r.sample(TURNS, 2)]
+        flights = [f"wide {r.choice((1600, 1700) if 'spiral' in turn else (800, 900))}mm rise 140mm..{r.choice((190, 220))}mm "
+                   f"{'' if 'spiral' in turn else f'going {r.choice((200, 240, 260))}mm'}{turn}" for turn in r.sample(TURNS, 2)]
         between = lambda: " | ".join(r.choice((["open"], ["door"], ["open", "door"], ["wall", "open"], ["slide", "wall"])))
         front = r.choice(("open", "door", "open | door", "window", "slide | open"))
         lines = ["schema hut { width role length = " + " | ".join(f"{w}mm" for w in widths),
@@ -50,7 +52,7 @@ class Form:
                   f"  face cell(stair) along cell(stair) = {r.choice(('wall', 'hatch', 'door', 'open'))}", f"  face cell(hall) along cell(stair) = {between()}",
                   f"  face cell(any) beside cell(any) = {between()}", f"  face cell(hall) outside front = {front}",
                   f"  face cell(any) outside left = {r.choice(('wall', 'window', 'door', 'open'))}", f"  face cell(any) outside = {r.choice(('wall', 'window', 'hatch'))}", "}",
-                  "library rows using hut { trays 1..3 }", "library all from rows in huts { }"]
+                  "library rows using hut { trays 1..2 }", "library all from rows in huts { }"]
         self.text = "\n".join(lines) + "\n"
 
 
@@ -66,8 +68,7 @@ class Storey:
 
     def __init__(self, house, level, clear):
         self.solids = [(s["box"], s["kind"]) for s in house["solids"]]
-        roofs = [(roof["x"] + [p[0] for p in (roof["profile"][0], roof["profile"][-1])] + [roof["base"], roof["profile"][0][1]], "roof") for roof in house["roofs"]]
-        self.solids += [([int(v) for v in box], kind) for box, kind in roofs]
+        self.solids += [(around(prism), prism["kind"]) for prism in house["roofs"] + house.get("wedges", [])]
         self.level = level
         stops = [b for b, kind in self.solids if b[4] < level + clear and b[5] > level + MM]
         panes = [pane_of(house, f) for f in house["faces"] if f["kind"] == "window"]
@@ -120,6 +121,12 @@ class Storey:
         return False
 
 
+def around(prism):
+    """Of a wedge, what a box around it has: one falls at least so deep onto it as from its top."""
+    x, y, low, high = ([F(corner[k]) for corner in prism["corners"]] for k in range(4))
+    return [int(v) for v in (min(x), max(x), min(y), max(y), min(low), max(high))]
+
+
 def pane_of(house, face):
     level = next(c for c in house["cells"] if c["id"] == face["a"])["level"]
     at = face["at"]
@@ -157,7 +164,7 @@ def faults_of(form, house):
     return faults, counts
 
 
-TURNS = ("", " turn half", " turn quarter")
+TURNS = ("", " turn half", " turn quarter", " turn half winders 2", " turn half winders 3", " turn quarter winders 2", " turn quarter winders 3", " turn spiral")
 tartan, solids, first, count = sys.argv[1], sys.argv[2], int(sys.argv[3]), int(sys.argv[4])
 bad, houses, guarded, forms, kinds = 0, 0, 0, 0, {}
 with tempfile.TemporaryDirectory() as scratch:
@@ -166,7 +173,7 @@ with tempfile.TemporaryDirectory() as scratch:
         form = Form(seed)
         with open(path, "w") as file:
             file.write(form.text)
-        done = subprocess.run([tartan, "sample", path, "6", "--library", "all", "--seed", str(seed)], capture_output=True, text=True)
+        done = subprocess.run([tartan, "sample", path, "4", "--library", "all", "--seed", str(seed)], capture_output=True, text=True)
         if done.returncode != 0:
             if "no houses" in done.stderr or "keeps no" in done.stderr:
                 continue

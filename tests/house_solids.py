@@ -26,8 +26,9 @@ def check(what, holds):
 def check_apart(house):
     chance = random.Random(1)
     boxes = [s["box"] for s in house["solids"]]
-    known = [house_prisms.Known(prism) for prism in house["roofs"]]
-    for prism, own in zip(house["roofs"], known):
+    prisms = house["roofs"] + house.get("wedges", [])
+    known = [house_prisms.Known(prism) for prism in prisms]
+    for prism, own in zip(prisms, known):
         check(f"a prism of cell {prism['of']} is sound", house_prisms.is_sound(prism))
         for _ in range(4):
             parts = [F(chance.randrange(1, 1000)) for _ in own.corners]
@@ -52,8 +53,9 @@ def volume_of(house):
     total = F(0)
     for b in (s["box"] for s in house["solids"]):
         total += F((b[1] - b[0]) * (b[3] - b[2]) * (b[5] - b[4]))
-    total += sum(map(house_prisms.volume_of, house["roofs"]))
-    flights = {house["faces"][s["of"]]["kind"] for s in house["solids"] if s["kind"] == "flight"}
+    total += sum(map(house_prisms.volume_of, house["roofs"] + house.get("wedges", [])))
+    steps = [s for s in house["solids"] if s["kind"] == "flight"] + house.get("wedges", [])
+    flights = {house["faces"][s["of"]]["kind"] for s in steps}
     openings = {f["kind"] for f in house["faces"]} - {"wall", "party", "open", "floor", "stair"} - flights
     total += sum(F(p["volume"]) for p in house["parts"] if p["part"] in openings)
     return total / 10**27

@@ -119,7 +119,7 @@ form f of row {{
   roof 200mm
   {function}
   opening door wide 900mm high 2m passage sliding {near}
-  flight steps wide 900mm rise 150mm..200mm going 250mm {turn}
+  flight steps wide {wide} rise 150mm..200mm {going} {turn}
   face cell(stair) under cell(stair) = steps
   {faces}
   way 800mm
@@ -131,7 +131,7 @@ library all from rows in f {{ require cell(stair) {rule} }}
 
 
 def stairs(**parts):
-    given = dict(width="1.1m", deep="5.25m", height="2.8m", near="", turn="", faces="face cell(any) outside = wall", headroom="2m", function="function stair at cell(any)", trays="1", rule="")
+    given = dict(wide="900mm", going="going 250mm", width="1.1m", deep="5.25m", height="2.8m", near="", turn="", faces="face cell(any) outside = wall", headroom="2m", function="function stair at cell(any)", trays="1", rule="")
     global FORM
     form, FORM = FORM, STAIR
     try:
@@ -157,6 +157,14 @@ climb("a flight with a half turn, too", dict(turn="turn half", width="2m"), dict
 climb("across that it takes twice its width", dict(turn="turn half", deep="3.5m"), dict(width="2m"), dict(width="1.999m"))
 # Quarter turn, between walls 3 m apart: 8 treads up with a landing, the corner, 4 treads on: 900 + 2000 + 900 mm by 900 + 1000 + 900 mm.
 climb("a quarter turn goes along two walls", dict(turn="turn quarter", deep="3.2m"), dict(width="4m"), dict(width="3.999m"))
+# Half turn with wedges: 4 treads up, 3 back, and 6 wedges in two squares: 1000 + 900 + 900 mm; with four wedges, 5 up and 4 back.
+climb("wedges in the corners make a half turn shorter", dict(turn="turn half winders 3", width="2m"), dict(deep="3m"), dict(deep="2.999m"))
+climb("two in each corner less so", dict(turn="turn half winders 2", width="2m"), dict(deep="3.25m"), dict(deep="3.249m"))
+# Quarter turn with three wedges, between walls 3 m apart: 4 treads up, 6 on.
+climb("wedges take the place of three treads in a quarter turn", dict(turn="turn quarter winders 3", deep="3.2m"), dict(width="3.5m"), dict(width="3.499m"))
+# Spiral: 1.7 m, and before it two landings beside each other, as deep as half of that.
+climb("a spiral is a square, with both landings at one side", dict(wide="1.7m", going="", turn="turn spiral", width="1.9m"), dict(deep="2.75m"), dict(deep="2.749m"))
+climb("it is as wide as it is, too", dict(wide="1.7m", going="", turn="turn spiral", deep="2.75m"), dict(width="1.9m"), dict(width="1.899m"))
 # A landing of 900 mm over an open side: upstairs half a partition stands there, and half a wall at the far side of the hall is no floor.
 HALL = dict(trays="2", width="{w} | 4.35m", deep="1.1m", function="function hall at cell({w}) function stair at cell(4.35m)",
             faces="face cell(stair, ground) beside cell(hall) = open\n  face cell(any) beside cell(any) = wall\n  face cell(any) outside = wall")

@@ -51,8 +51,8 @@ class Form:
                 near[r.choice(("left", "right"))] = r.choice((4, 6, 18))
             self.openings[name] = (max(wide, self.way), near, {"door": "passage", "gap": "passage leafless", "slide": "passage sliding"}[name])
         self.openings["pane"] = (30, {}, "glazed sill 30\"")
-        turn = r.choice(("", " turn half", " turn half", " turn quarter"))
-        self.flight = f'wide {inches(max(r.choice((28, 32, 36)), self.way))} rise 6"..{r.choice((8, 9))}" going {inches(r.choice((8, 9, 10)))}{turn}'
+        turn = r.choice(("", " turn half", " turn half", " turn quarter", " turn half winders 2", " turn half winders 3", " turn quarter winders 2", " turn quarter winders 3", " turn spiral"))
+        self.flight = f'wide {inches(max(r.choice((28, 32, 36)), self.way) * (2 if "spiral" in turn else 1))} rise 6"..{r.choice((8, 9))}" going {inches(r.choice((8, 9, 10)))}{turn}'
         between = [["door"], ["gap"], ["slide"], ["open"], ["open", "door"], ["wall", "door"]]
         self.lines = [("stair", "beside", "hall", r.choice((["open"], ["open", "door"], ["gap"]))),
                       ("hall", "beside", "any", r.choice(between)), ("room", "along", "room", r.choice(between)),

@@ -56,10 +56,16 @@ static tn_steps bare_steps_of(const tn_opening_record *flight, int64_t height, i
     tn_steps steps = {.risers = risers, .first = risers - 1, .deep = (risers - 1) * g, .wide = w};
     if (risers < 4 || risers > TN_FLIGHT_STEPS_MAX || flight->rise_least * risers > height)
         return (tn_steps){0};
-    int64_t treads = risers - 2, fit = deep > w ? (deep - w) / g : 0;
-    if (flight->turn == TN_TURN_STRAIGHT)
+    bool half = flight->turn == TN_TURN_HALF, spiral = flight->turn == TN_TURN_SPIRAL;
+    if (spiral)
+        steps.first = 0;
+    if (spiral || flight->turn == TN_TURN_STRAIGHT) {
+        steps.deep = spiral ? w : steps.deep;
         return steps;
-    bool half = flight->turn == TN_TURN_HALF;
+    }
+    int64_t treads = risers - 1 - tn_flight_corners(flight), fit = deep > w ? (deep - w) / g : 0;
+    if (treads < 0)
+        return (tn_steps){0};
     steps.first = half ? (treads + 1) / 2 : fit < treads ? fit : treads;
     steps.second = treads - steps.first;
     steps.deep = steps.first * g + w;
@@ -253,6 +259,7 @@ void tn_flight_clear(tn_flight *flight)
     free(flight->holes);
     free(flight->drops);
     free(flight->treads);
+    free(flight->wedges);
     *flight = (tn_flight){0};
 }
 

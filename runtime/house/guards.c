@@ -92,6 +92,16 @@ static tn_status put_below(tn_guarding *g, uint32_t of, const tn_rectangles *on,
     return status;
 }
 
+/* Puts guards below a step, and adds it to those in the way of others. */
+static tn_status see_step(tn_guarding *g, uint32_t of, const tn_rectangles *on, const tn_box *step,
+                          tn_rectangles *steps, tn_error *error)
+{
+    if (step->z0 >= g->high)
+        return TN_OK;
+    tn_status status = tn_rectangles_add(steps, (tn_rectangle){step->x0, step->x1, step->y0, step->y1}, error);
+    return status == TN_OK && step->z0 > 0 ? put_below(g, of, on, step, error) : status;
+}
+
 static tn_status put_guards(tn_guarding *g, uint32_t of, const tn_rectangles *on, tn_error *error)
 {
     tn_rectangles steps = {0};
@@ -100,13 +110,11 @@ static tn_status put_guards(tn_guarding *g, uint32_t of, const tn_rectangles *on
         const tn_flight *flight = &g->flights->items[f];
         if (g->house->faces[flight->face].storey != g->storey)
             continue;
-        for (size_t t = 0; status == TN_OK && t < flight->tread_count; t++) {
-            const tn_box *step = &flight->treads[t];
-            if (step->z0 >= g->high)
-                continue;
-            status = tn_rectangles_add(&steps, (tn_rectangle){step->x0, step->x1, step->y0, step->y1}, error);
-            if (status == TN_OK && step->z0 > 0)
-                status = put_below(g, of, on, step, error);
+        for (size_t t = 0; status == TN_OK && t < flight->tread_count; t++)
+            status = see_step(g, of, on, &flight->treads[t], &steps, error);
+        for (size_t w = 0; status == TN_OK && w < flight->wedge_count; w++) {
+            tn_box around = tn_wedge_box(&flight->wedges[w]);
+            status = see_step(g, of, on, &around, &steps, error);
         }
     }
     if (status == TN_OK)
@@ -133,11 +141,10 @@ static tn_rectangle strip_of(const tn_rectangle *r, tn_house_side side, int64_t 
     }
 }
 
-/* Where one steps off a flight at a side of its last step, as a strip beyond it; an empty one: at no place. */
+/* Where one steps off a flight at a side of its last steps, as a strip beyond them; an empty one: at no place. */
 static tn_rectangle head_line(const tn_flight *flight, tn_house_side side)
 {
-    const tn_box *last = &flight->treads[flight->tread_count - 1];
-    tn_rectangle step = {last->x0, last->x1, last->y0, last->y1}, beyond = strip_of(&step, side, 1, true);
+    tn_rectangle beyond = strip_of(&flight->last, side, 1, true);
     return common(&beyond, &flight->head);
 }
 

@@ -329,21 +329,35 @@ static inline int64_t tn_opening_needs(const tn_house_form *form, const tn_openi
 /* ---- flight.c */
 
 #define TN_FLIGHT_STEPS_MAX 1000u
+#define TN_FLIGHT_PATH_MAX 4u
+
+/* A step that is no box: upright over a triangle or a quadrilateral, whose corners go counter-clockwise seen from above.
+ * It goes from levels[0] to levels[2], above the lower floor; the step before it ends at levels[1]. */
+typedef struct tn_wedge {
+    int64_t at[4][2];
+    size_t count;
+    int64_t levels[3];
+} tn_wedge;
+
+/* Around a wedge; z from the lower floor. */
+tn_box tn_wedge_box(const tn_wedge *wedge);
 
 /* A flight of stairs as it stands, from one floor to the next. face: it is in; holes: what it takes of the floor above.
- * treads: by height, with landings among them. path: how one walks up it. If the form asks for ways: foot, head: where
- * one stands before it and behind it; drops: what of its holes one may fall far into. Owns its arrays: clear it in any
- * case. */
+ * treads: by height, with landings among them; wedges: those that are no boxes. path: how one walks up it. If the form
+ * asks for ways: foot, head: where one stands before it and behind it; last: where the last steps are, before the head;
+ * drops: what of its holes one may fall far into. Owns its arrays: clear it in any case. */
 typedef struct tn_flight {
     uint32_t face;
     tn_rectangle *holes;
     size_t hole_count;
     tn_rectangle *drops;
     size_t drop_count;
-    tn_rectangle foot, head;
+    tn_rectangle foot, head, last;
     tn_box *treads; /* z from the lower floor */
     size_t tread_count;
-    int64_t path[4][2];
+    tn_wedge *wedges;
+    size_t wedge_count;
+    int64_t path[TN_FLIGHT_PATH_MAX][2];
     size_t path_count;
 } tn_flight;
 
@@ -354,6 +368,13 @@ typedef struct tn_flight_size {
     int64_t steps, deep, wide;
     bool turns;
 } tn_flight_size;
+
+/* How many treads it has where it turns: a landing is one. */
+static inline int64_t tn_flight_corners(const tn_opening_record *flight)
+{
+    bool half = flight->turn == TN_TURN_HALF;
+    return flight->winders ? (half ? 2 : 1) * (int64_t)flight->winders : 1;
+}
 
 tn_flight_size tn_flight_size_in(const tn_house_form *form, uint32_t storey, const tn_opening_record *flight);
 

@@ -202,6 +202,40 @@ static tn_status put_items(const tn_house *house, uint32_t index, tn_solids *sol
     return status;
 }
 
+/* One of the two pieces of a wedge: those beside it have the same levels, so that they have whole faces in common. */
+static tn_status put_wedge(const tn_wedge *wedge, uint32_t face, int64_t floor, size_t piece, tn_solids *solids,
+                           tn_error *error)
+{
+    tn_prism prism = {.kind = TN_SOLID_FLIGHT,
+                      .of = face,
+                      .rise = {0, 1},
+                      .corner_first = solids->corner_count,
+                      .corner_count = wedge->count};
+    if (!tn_array_reserve_from(&solids->prisms, &solids->prism_room, 16, solids->prism_count, 1,
+                               sizeof *solids->prisms) ||
+        !tn_array_reserve_from(&solids->corners, &solids->corner_room, 64, solids->corner_count, wedge->count,
+                               sizeof *solids->corners))
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < wedge->count; i++)
+        solids->corners[solids->corner_count++] = (tn_prism_corner){{wedge->at[i][0], 1},
+                                                                    {wedge->at[i][1], 1},
+                                                                    {floor + wedge->levels[piece], 1},
+                                                                    {floor + wedge->levels[piece + 1], 1}};
+    solids->prisms[solids->prism_count++] = prism;
+    return TN_OK;
+}
+
+static tn_status put_wedges(const tn_house *house, const tn_flight *flight, tn_solids *solids, tn_error *error)
+{
+    int64_t floor = house->form->level[house->faces[flight->face].storey];
+    tn_status status = TN_OK;
+    for (size_t i = 0; i < flight->wedge_count; i++)
+        for (size_t piece = 0; status == TN_OK && piece < 2; piece++)
+            if (flight->wedges[i].levels[piece] < flight->wedges[i].levels[piece + 1])
+                status = put_wedge(&flight->wedges[i], flight->face, floor, piece, solids, error);
+    return status;
+}
+
 static tn_status put_stairs(const tn_house *house, const tn_rectangles *foot, const tn_flights *flights,
                             tn_solids *solids, tn_error *error)
 {
@@ -211,6 +245,8 @@ static tn_status put_stairs(const tn_house *house, const tn_rectangles *foot, co
         const tn_rectangles *posts = &foot[house->faces[flight->face].storey];
         for (size_t t = 0; status == TN_OK && t < flight->tread_count; t++)
             status = put_step(house, flight, &flight->treads[t], posts, solids, error);
+        if (status == TN_OK)
+            status = put_wedges(house, flight, solids, error);
     }
     return status == TN_OK ? tn_house_guards(house, foot, flights, solids, error) : status;
 }

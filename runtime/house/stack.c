@@ -13,10 +13,11 @@
 
 /* ---- the steps of a flight */
 
-/* Treads that fill a rectangle, by their numbers from 1 on. */
+/* Treads that fill a rectangle, by their numbers from 1 on. More than one are wedges. */
 typedef struct tn_step_box {
     tn_rectangle at; /* x: u; y: v */
-    int64_t tread;
+    int64_t first, last;
+    tn_winding winding; /* of wedges */
 } tn_step_box;
 
 /* deep: along u; wide: along v. foot, head: where one stands before the flight and behind it. */
@@ -25,7 +26,7 @@ typedef struct tn_flight_shape {
     tn_step_box *boxes;
     size_t count;
     tn_rectangle foot, head;
-    int64_t path[4][2];
+    int64_t path[TN_FLIGHT_PATH_MAX][2];
     size_t path_count;
 } tn_flight_shape;
 
@@ -35,10 +36,16 @@ static int64_t risers_of(const tn_opening_record *flight, int64_t height)
     return risers >= 4 && risers <= TN_FLIGHT_STEPS_MAX && flight->rise_least * risers <= height ? risers : 0;
 }
 
+/* With the next treads, so many. */
+static void add_treads(tn_flight_shape *s, tn_rectangle at, int64_t count, tn_winding winding)
+{
+    int64_t before = s->count > 0 ? s->boxes[s->count - 1].last : 0;
+    s->boxes[s->count++] = (tn_step_box){at, before + 1, before + count, winding};
+}
+
 static void add_box(tn_flight_shape *s, int64_t u0, int64_t u1, int64_t v0, int64_t v1)
 {
-    s->boxes[s->count] = (tn_step_box){{u0, u1, v0, v1}, (int64_t)s->count + 1};
-    s->count++;
+    add_treads(s, (tn_rectangle){u0, u1, v0, v1}, 1, TN_WINDS_RIGHT);
 }
 
 static void add_path(tn_flight_shape *s, int64_t u, int64_t v)
@@ -57,13 +64,19 @@ static void shape_straight(tn_flight_shape *s, int64_t w, int64_t g)
     add_path(s, s->deep, w / 2);
 }
 
-/* Half of the treads up, a landing as wide as both arms, the others back. */
-static void shape_half(tn_flight_shape *s, int64_t w, int64_t g)
+/* Half of the treads up, a landing as wide as both arms or wedges in the two corners, the others back. */
+static void shape_half(tn_flight_shape *s, const tn_opening_record *flight)
 {
-    int64_t treads = s->risers - 2, up = (treads + 1) / 2, back = treads - up, end = up * g;
+    int64_t w = flight->wide, g = flight->going, treads = s->risers - 1 - tn_flight_corners(flight),
+            up = (treads + 1) / 2, back = treads - up, end = up * g;
     for (int64_t i = 0; i < up; i++)
         add_box(s, i * g, (i + 1) * g, 0, w);
-    add_box(s, end, end + w, 0, 2 * w);
+    if (flight->winders) {
+        add_treads(s, (tn_rectangle){end, end + w, 0, w}, flight->winders, TN_WINDS_RIGHT);
+        add_treads(s, (tn_rectangle){end, end + w, w, 2 * w}, flight->winders, TN_WINDS_BACK);
+    } else {
+        add_box(s, end, end + w, 0, 2 * w);
+    }
     for (int64_t i = 1; i <= back; i++)
         add_box(s, end - i * g, end - (i - 1) * g, w, 2 * w);
     s->deep = end + w;
@@ -74,14 +87,14 @@ static void shape_half(tn_flight_shape *s, int64_t w, int64_t g)
     add_path(s, end - back * g, w + w / 2);
 }
 
-/* As many treads up as fit, a landing in the corner, the others to the right. */
-static void shape_quarter(tn_flight_shape *s, int64_t w, int64_t g, int64_t room)
+/* As many treads up as fit, a landing or wedges in the corner, the others to the right. */
+static void shape_quarter(tn_flight_shape *s, const tn_opening_record *flight, int64_t room)
 {
-    int64_t treads = s->risers - 2, fit = room > w ? (room - w) / g : 0, up = fit < treads ? fit : treads,
-            on = treads - up, end = up * g;
+    int64_t w = flight->wide, g = flight->going, corner = tn_flight_corners(flight), treads = s->risers - 1 - corner,
+            fit = room > w ? (room - w) / g : 0, up = fit < treads ? fit : treads, on = treads - up, end = up * g;
     for (int64_t i = 0; i < up; i++)
         add_box(s, i * g, (i + 1) * g, 0, w);
-    add_box(s, end, end + w, 0, w);
+    add_treads(s, (tn_rectangle){end, end + w, 0, w}, corner, TN_WINDS_RIGHT);
     for (int64_t i = 0; i < on; i++)
         add_box(s, end, end + w, w + i * g, w + (i + 1) * g);
     s->deep = end + w;
@@ -91,6 +104,22 @@ static void shape_quarter(tn_flight_shape *s, int64_t w, int64_t g, int64_t room
     add_path(s, end + w / 2, s->wide);
 }
 
+/* One begins at the left half of a side, goes round the middle, and leaves at the right half. The path has its corners
+ * where the middle of the steps is beside or before that of the flight. */
+static void shape_spiral(tn_flight_shape *s, int64_t w)
+{
+    int64_t landing = w / 2, near = w / 4, far = w - near;
+    add_treads(s, (tn_rectangle){0, w, 0, w}, s->risers - 1, TN_WINDS_ROUND);
+    s->deep = s->wide = w;
+    s->foot = (tn_rectangle){-landing, 0, 0, landing};
+    s->head = (tn_rectangle){-landing, 0, w - landing, w};
+    s->path_count = 0;
+    add_path(s, 0, near);
+    add_path(s, far, near);
+    add_path(s, far, far);
+    add_path(s, 0, far);
+}
+
 /* In a storey so high, with so much room from the line of the foot on. boxes: room for TN_FLIGHT_STEPS_MAX of them.
  * False: the storey is no whole number of steps. */
 static bool find_shape(const tn_opening_record *flight, int64_t height, int64_t room, tn_step_box *boxes,
@@ -98,15 +127,18 @@ static bool find_shape(const tn_opening_record *flight, int64_t height, int64_t 
 {
     int64_t w = flight->wide, g = flight->going;
     *s = (tn_flight_shape){.risers = risers_of(flight, height), .boxes = boxes, .foot = {-w, 0, 0, w}};
-    if (s->risers == 0)
+    if (s->risers == 0 || (flight->winders && s->risers <= tn_flight_corners(flight)))
         return false;
     add_path(s, 0, w / 2);
     switch ((tn_turn)flight->turn) {
     case TN_TURN_HALF:
-        shape_half(s, w, g);
+        shape_half(s, flight);
         break;
     case TN_TURN_QUARTER:
-        shape_quarter(s, w, g, room);
+        shape_quarter(s, flight, room);
+        break;
+    case TN_TURN_SPIRAL:
+        shape_spiral(s, w);
         break;
     default:
         shape_straight(s, w, g);
@@ -254,12 +286,13 @@ static bool place_at(tn_stack *k, size_t flight, size_t number, tn_flight_place 
     size_t from = number / 4 % 3;
     *p = (tn_flight_place){.side = sides[number / 12], .mirrored = number / 2 % 2, .right = number % 2};
     int64_t room = runs_in_x(p->side) ? in.y1 - in.y0 : in.x1 - in.x0;
-    p->at = from == WITH_LANDING ? record->wide : 0;
+    int64_t landing = record->turn == TN_TURN_SPIRAL ? record->wide / 2 : record->wide;
+    p->at = from == WITH_LANDING ? landing : 0;
     if (!find_shape(record, height_of(k, flight), room - p->at, k->boxes, s))
         return false;
     if (from == FAR) {
         p->at = room - s->deep;
-        if (record->turn == TN_TURN_QUARTER || p->at <= record->wide)
+        if (record->turn == TN_TURN_QUARTER || p->at <= landing)
             return false;
     }
     for (size_t i = 0; i < s->count; i++) {
@@ -284,9 +317,9 @@ static bool has_part(const tn_stack *k, size_t flight, const tn_flight_shape *s,
     int64_t height = height_of(k, flight), deck = k->house->form->record->deck,
             headroom = k->house->form->record->headroom;
     if (part == STEPS_IN_WAY)
-        return box->tread <= 2 || (box->tread - 2) * height < headroom * s->risers;
-    bool hole = (height - deck - headroom) * s->risers < box->tread * height,
-         drop = (s->risers - box->tread) * height > DROP_NM * s->risers;
+        return box->first <= 2 || (box->first - 2) * height < headroom * s->risers;
+    bool hole = (height - deck - headroom) * s->risers < box->last * height,
+         drop = (s->risers - box->first) * height > DROP_NM * s->risers;
     return part == ALL_STEPS || (hole && (part == STEPS_IN_HOLE || drop));
 }
 
@@ -495,6 +528,57 @@ static tn_status take_steps(const tn_stack *k, size_t flight, const tn_flight_sh
     return status;
 }
 
+static void put_point(const tn_flight_shape *s, const tn_flight_place *p, const tn_rectangle *in, int64_t point[2])
+{
+    tn_rectangle r = put(s, p, in, (tn_rectangle){point[0], point[0], point[1], point[1]});
+    point[0] = r.x0;
+    point[1] = r.y0;
+}
+
+/* Its corners go round the other way, for whoever looks from above. */
+static void turn_over(tn_wedge *wedge)
+{
+    for (size_t i = 1, k = wedge->count - 1; i < k; i++, k--)
+        for (int axis = 0; axis < 2; axis++) {
+            int64_t at = wedge->at[i][axis];
+            wedge->at[i][axis] = wedge->at[k][axis];
+            wedge->at[k][axis] = at;
+        }
+}
+
+static bool goes_clockwise(const tn_wedge *w)
+{
+    tn_int128 twice = 0;
+    for (size_t i = 0; i < w->count; i++) {
+        const int64_t *a = w->at[i], *b = w->at[(i + 1) % w->count];
+        twice += (tn_int128)a[0] * b[1] - (tn_int128)b[0] * a[1];
+    }
+    return twice < 0;
+}
+
+/* The treads of a rectangle: itself, or wedges. */
+static void stand_box(const tn_flight_shape *s, const tn_flight_place *p, const tn_rectangle *in, int64_t height,
+                      const tn_step_box *box, tn_flight *to)
+{
+    for (int64_t n = box->first; n <= box->last; n++) {
+        int64_t low = n > 2 ? (n - 2) * height / s->risers : 0, high = n * height / s->risers;
+        if (box->first == box->last) {
+            tn_rectangle r = put(s, p, in, box->at);
+            to->treads[to->tread_count++] = (tn_box){r.x0, r.x1, r.y0, r.y1, low, high};
+            return;
+        }
+        tn_wedge *wedge = &to->wedges[to->wedge_count++];
+        tn_wedge_plan(box->winding, &box->at, box->last - box->first + 1, n - box->first, wedge);
+        for (size_t i = 0; i < wedge->count; i++)
+            put_point(s, p, in, wedge->at[i]);
+        if (goes_clockwise(wedge))
+            turn_over(wedge);
+        wedge->levels[0] = low;
+        wedge->levels[1] = (n - 1) * height / s->risers;
+        wedge->levels[2] = high;
+    }
+}
+
 static tn_status stand(tn_stack *k, size_t flight, tn_flight *to, tn_error *error)
 {
     tn_flight_shape s;
@@ -502,23 +586,20 @@ static tn_status stand(tn_stack *k, size_t flight, tn_flight *to, tn_error *erro
     tn_rectangle in = common_of(k, flight);
     int64_t height = height_of(k, flight), room = runs_in_x(p->side) ? in.y1 - in.y0 : in.x1 - in.x0;
     find_shape(record_of(k, flight), height, room - p->at, k->boxes, &s);
-    to->treads = malloc((s.count + 1) * sizeof *to->treads);
-    if (!to->treads)
+    to->treads = malloc((size_t)s.risers * sizeof *to->treads);
+    to->wedges = malloc((size_t)s.risers * sizeof *to->wedges);
+    if (!to->treads || !to->wedges)
         return tn_fail_memory(error);
-    for (size_t i = 0; i < s.count; i++) {
-        tn_rectangle r = put(&s, p, &in, s.boxes[i].at);
-        int64_t n = s.boxes[i].tread;
-        to->treads[to->tread_count++] =
-            (tn_box){r.x0, r.x1, r.y0, r.y1, n > 2 ? (n - 2) * height / s.risers : 0, n * height / s.risers};
-    }
+    for (size_t i = 0; i < s.count; i++)
+        stand_box(&s, p, &in, height, &s.boxes[i], to);
     for (size_t i = 0; i < s.path_count; i++) {
-        tn_rectangle r = put(&s, p, &in, (tn_rectangle){s.path[i][0], s.path[i][0], s.path[i][1], s.path[i][1]});
-        to->path[i][0] = r.x0;
-        to->path[i][1] = r.y0;
+        memcpy(to->path[i], s.path[i], sizeof s.path[i]);
+        put_point(&s, p, &in, to->path[i]);
     }
     to->path_count = s.path_count;
     to->foot = put(&s, p, &in, s.foot);
     to->head = put(&s, p, &in, s.head);
+    to->last = put(&s, p, &in, s.boxes[s.count - 1].at);
     tn_status status = take_steps(k, flight, &s, STEPS_IN_HOLE, &to->holes, &to->hole_count, error);
     return status == TN_OK ? take_steps(k, flight, &s, STEPS_BELOW_DROP, &to->drops, &to->drop_count, error) : status;
 }

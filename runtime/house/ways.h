@@ -105,6 +105,15 @@ tn_status tn_tile_stop(const tn_house *house, uint32_t cell, uint32_t tile, cons
 /* "a person, 800mm wide, comes within 360mm of it", in words; empty of a leaf. */
 void tn_way_stop_text(const tn_house *house, const tn_way_stop *stop, char *text, size_t size);
 
+/* ---- wedges.c: steps around a corner, or around the middle of a spiral */
+
+/* How one goes through a square of steps, of which u goes on and v goes to the right: in by its lower u and out by its
+ * higher v; in by its lower v and back out by its lower u; or round, from the middle of its lower u back to that. */
+typedef enum tn_winding { TN_WINDS_RIGHT, TN_WINDS_BACK, TN_WINDS_ROUND } tn_winding;
+
+/* The corners of a wedge in plan, of `count` in a square (x: u; y: v); number: from 0. */
+void tn_wedge_plan(tn_winding winding, const tn_rectangle *square, int64_t count, int64_t number, tn_wedge *wedge);
+
 /* ---- stack.c: cells that flights of stairs join */
 
 /* How a flight stands in the common part of two clear rectangles: it climbs away from a side, and its foot is so far

@@ -89,6 +89,7 @@ typedef enum tn_comparison { TN_ALWAYS, TN_AGE_BELOW, TN_AGE_ABOVE, TN_AGE_EQUAL
 #define TN_CHOICES_MAX 64u
 #define TN_CELL_RULES_MAX 1000u
 #define TN_OPENINGS_MAX 200u
+#define TN_WINDERS_MAX 3u
 #define TN_FACE_LINES_MAX 1000u
 #define TN_TILES_MAX 10000u
 #define TN_TILE_BOXES_MAX 1000u

@@ -35,6 +35,9 @@ for flights in 'dogleg dogleg winding winding' 'winding winding run run' 'run do
     looked "$files/stairs.plan" "22' rooms:14' well:7'6\" | 22' rooms:14' deep:12' ; gable(9:12,eaves-1',across) flat ; living living living climb climb climb | living living living climb climb climb ; $flights" "$flights"
 done
 
+for flight in half2 half3 quarter3 round; do
+    looked "$files/winders.plan" "3m deep:6m | 4m deep:6m ; - ; stair stair | room room ; $flight" "a flight with wedges, $flight"
+done
 looked "$files/gallery.plan" "$("$TARTAN" sample "$files/gallery.plan" 1 --library inns --seed 2)" 'a gallery'
 
 # Gable ends are walls below the slab, which ends upright above them.

@@ -56,6 +56,7 @@ typedef struct tn_checked_opening {
     int64_t wide, high, sill, clear;
     int64_t rise_least, rise_most, going; /* of a flight */
     tn_turn turn;
+    uint32_t winders; /* of each right angle that it turns by; 0: it has landings */
     bool passage, glazed, leafless, sliding;
     const tn_ast_opening_part *near_x, *near_y; /* what says where it begins, along x and along y; or NULL */
 } tn_checked_opening;

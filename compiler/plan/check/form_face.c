@@ -107,19 +107,50 @@ static bool read_turn(tn_check *check, const tn_ast_form_clause *ast, tn_turn *t
     *turn = !ast->detail                         ? TN_TURN_STRAIGHT
             : tn_word_is(ast->detail, "quarter") ? TN_TURN_QUARTER
             : tn_word_is(ast->detail, "half")    ? TN_TURN_HALF
+            : tn_word_is(ast->detail, "spiral")  ? TN_TURN_SPIRAL
                                                  : TN_TURN_NONE;
     if (*turn != TN_TURN_NONE)
         return true;
     bad_flight(check, ast, "has a `turn` that the language does not know",
-               "write `turn quarter` or `turn half`, or leave `turn` out");
+               "write `turn quarter`, `turn half` or `turn spiral`, or leave `turn` out");
     return false;
 }
 
-/* Does a whole number of equal steps lead up a storey? Four or more: there is one on either side of a landing. */
+/* Wedges stand where it turns: two or three for each right angle. */
+static void read_winders(tn_check *check, const tn_ast_form_clause *ast, tn_checked_opening *flight)
+{
+    bool turns = flight->turn == TN_TURN_HALF || flight->turn == TN_TURN_QUARTER;
+    if (!ast->winders || ast->winders->broken)
+        return;
+    int64_t wedges = ast->winders->kind == TN_WORD_NUMBER ? ast->winders->value : 0;
+    if (!turns)
+        bad_flight(check, ast, "has `winders`, and turns by no right angle", "write `turn half` or `turn quarter` too");
+    else if (wedges != 2 && wedges != 3)
+        bad_flight(check, ast, "has another number of `winders` than two or three",
+                   "write `winders 2` or `winders 3`");
+    else
+        flight->winders = (uint32_t)wedges;
+}
+
+/* A spiral has its steps around its middle; others say how deep they are. */
+static int64_t read_going(tn_check *check, const tn_checked_form *form, const tn_ast_form_clause *ast, tn_turn turn)
+{
+    if (ast->going)
+        return tn_form_length(check, ast->going);
+    if (turn == TN_TURN_SPIRAL)
+        return 0;
+    bad_flight(check, ast, "does not say how deep its steps are",
+               tn_form_in_unit(form, "add `going 10\"` behind `rise`", "add `going 250mm` behind `rise`"));
+    return -1;
+}
+
+/* Does a whole number of equal steps lead up a storey? Four or more: there is one on either side of a landing. Wedges
+ * take the places of others. */
 static bool climbs(const tn_checked_opening *flight, int64_t height)
 {
-    int64_t risers = (height + flight->rise_most - 1) / flight->rise_most;
-    return risers >= 4 && risers * flight->rise_least <= height;
+    int64_t risers = (height + flight->rise_most - 1) / flight->rise_most,
+            wedges = (flight->turn == TN_TURN_HALF ? 2 : 1) * (int64_t)flight->winders;
+    return risers >= 4 && risers > wedges && risers * flight->rise_least <= height;
 }
 
 void tn_check_flight(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast)
@@ -131,13 +162,14 @@ void tn_check_flight(tn_check *check, tn_checked_form *form, const tn_ast_form_c
     flight.wide = tn_form_length(check, ast->length);
     flight.rise_least = tn_form_length(check, ast->low);
     flight.rise_most = tn_form_length(check, ast->high);
-    flight.going = tn_form_length(check, ast->going);
-    flight.high = 1;
-    bool known = flight.wide >= 0 && flight.rise_least >= 0 && flight.rise_most >= 0 && flight.going >= 0;
-    bool sized = flight.wide > 0 && flight.rise_least > 0 && flight.rise_most > 0 && flight.going > 0, fits = false;
     bool turns = read_turn(check, ast, &flight.turn);
     if (!turns)
         flight.turn = TN_TURN_STRAIGHT; /* a flight all the same */
+    flight.going = read_going(check, form, ast, flight.turn);
+    read_winders(check, ast, &flight);
+    flight.high = 1;
+    bool goes = flight.going > 0 || flight.turn == TN_TURN_SPIRAL, known = flight.wide >= 0 && flight.rise_least >= 0 && flight.rise_most >= 0 && flight.going >= 0;
+    bool sized = flight.wide > 0 && flight.rise_least > 0 && flight.rise_most > 0 && goes, fits = false;
     for (uint32_t i = 0; sized && i < form->storey_count; i++)
         fits |= form->storeys[i].height < 0 || climbs(&flight, form->storeys[i].height);
     if (known && !sized)
@@ -356,6 +388,14 @@ static const char *unusual_step(const tn_checked_opening *flight, int64_t rise, 
                                                                : NULL;
 }
 
+static void warn_spiral(tn_check *check, const tn_checked_opening *flight)
+{
+    tn_diagnostic *d = tn_report(check->diagnostics, W_UNUSUAL_FLIGHT, flight->ast->node.span,
+                                 "flight `%.80s` is a spiral", flight->ast->name->text);
+    tn_help(check->diagnostics, d, "its steps are narrow at the middle, and nothing large is carried up; who means it so "
+                                   "writes `allow W212`");
+}
+
 static void warn_unusual(tn_check *check, const tn_checked_opening *flight, const char *what, int64_t length,
                          const char *usual)
 {
@@ -370,6 +410,10 @@ static void check_usual(tn_check *check, const tn_checked_form *form, const tn_c
 {
     int64_t length;
     const char *usual, *what = NULL;
+    if (flight->turn == TN_TURN_SPIRAL) {
+        warn_spiral(check, flight);
+        return;
+    }
     for (uint32_t k = 0; !what && k + 1 < form->storey_count; k++) {
         int64_t height = form->storeys[k].height;
         if (height <= 0 || !climbs(flight, height))
@@ -390,15 +434,29 @@ static void check_flights(tn_check *check, const tn_checked_form *form)
     for (uint32_t i = 0; i < form->opening_count; i++) {
         const tn_checked_opening *flight = &form->openings[i];
         bool sized = flight->turn != TN_TURN_NONE && flight->wide > 0 && flight->rise_least > 0 &&
-                     flight->rise_most > 0 && flight->going > 0;
-        if (sized && own && flight->wide >= form->way && tn_check_wanted(check, W_UNUSUAL_FLIGHT))
+                     flight->rise_most > 0 && (flight->going > 0 || flight->turn == TN_TURN_SPIRAL);
+        bool spiral = flight->turn == TN_TURN_SPIRAL; /* one climbs it in half of its width */
+        int64_t needed = spiral ? 2 * form->way : form->way;
+        if (sized && own && flight->wide >= needed && tn_check_wanted(check, W_UNUSUAL_FLIGHT))
             check_usual(check, form, flight);
-        if (!sized || flight->wide >= form->way)
+        if (!sized || flight->wide >= needed)
             continue;
-        tn_diagnostic *d =
-            tn_report(check->diagnostics, E_BAD_FLIGHT, flight->ast->length->node.span,
-                      "flight `%.80s` is narrower than the `way` that people need", flight->ast->name->text);
-        tn_help(check->diagnostics, d, "make it %s wide or more", written(form->way, flight->ast->length->text, shown));
+        tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_FLIGHT, flight->ast->length->node.span,
+                                     "flight `%.80s` is narrower than %sthe `way` that people need",
+                                     flight->ast->name->text, spiral ? "twice " : "");
+        tn_help(check->diagnostics, d, "make it %s wide or more", written(needed, flight->ast->length->text, shown));
+    }
+}
+
+/* Flights that stand only where ways are left for them. */
+static void check_unplaced(tn_check *check, const tn_checked_form *form)
+{
+    for (uint32_t i = 0; i < form->opening_count; i++) {
+        const tn_checked_opening *flight = &form->openings[i];
+        if (flight->winders > 0 || flight->turn == TN_TURN_SPIRAL)
+            bad_flight(check, flight->ast,
+                       flight->winders > 0 ? "has `winders` in a form without `way`" : "is a spiral in a form without `way`",
+                       tn_form_in_unit(form, "add a line such as `way 2'8\"`", "add a line such as `way 800mm`"));
     }
 }
 
@@ -434,6 +492,7 @@ void tn_check_ways(tn_check *check, tn_checked_form *form)
     if (!any) {
         check_idle(check, form, form->headroom_ast, "headroom");
         check_idle(check, form, form->guard_ast, "guard");
+        check_unplaced(check, form);
         form->headroom = form->guard = 0;
         return;
     }

@@ -131,6 +131,7 @@ static void emit_openings(tn_emit *emit, const tn_checked_form *form)
                                  .rise_most = opening->rise_most,
                                  .going = opening->going,
                                  .turn = opening->turn,
+                                 .winders = opening->winders,
                                  .flags = (opening->passage ? TN_PASSAGE : 0) | (opening->glazed ? TN_GLAZED : 0) |
                                           (opening->leafless ? TN_LEAFLESS : 0) | (opening->sliding ? TN_SLIDING : 0),
                                  .near_x = side_of(opening->near_x),

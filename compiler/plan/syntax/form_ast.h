@@ -89,7 +89,8 @@ typedef struct tn_ast_form_clause {
                                   or NULL; material: per what; flight: how it turns, or NULL */
     const tn_ast_word *length; /* storey, thickness, an opening's width; a material's price, or NULL */
     const tn_ast_word *high;   /* opening; the most that a flight's steps rise */
-    const tn_ast_word *low, *going; /* flight: the least that its steps rise, and how deep they are */
+    const tn_ast_word *low, *going; /* flight: the least that its steps rise, and how deep they are, or NULL */
+    const tn_ast_word *winders;     /* flight: how many wedges a turn has, or NULL */
     tn_face_relation relation;
     tn_ast_expr *first, *second; /* material: where it is used, or NULL */
     tn_ast_list list;  /* section: tn_ast_shape; face: kinds; tile, way: functions; material: parts; allow: codes */

@@ -592,6 +592,8 @@ static void put_roof(tn_ifc *ifc, uint32_t zone, tn_stepfile_list *list)
     tn_stepfile_list slabs = {0};
     for (size_t i = 0; i < ifc->solids->prism_count; i++) {
         const tn_prism *prism = &ifc->solids->prisms[i];
+        if (prism->kind == TN_SOLID_FLIGHT)
+            continue;
         const tn_cell *cell = &ifc->house->cells[prism->of];
         unsigned part = cell->storey == ifc->storey && cell->zone == zone ? put_prisms(ifc, i) : 0;
         if (part)
@@ -612,6 +614,39 @@ static void put_roof(tn_ifc *ifc, uint32_t zone, tn_stepfile_list *list)
     tn_stepfile_list_clear(&slabs);
 }
 
+/* The steps of a flight of which some are wedges, as solids of faces; none: it has no wedges. */
+static void put_winding(tn_ifc *ifc, uint32_t face, tn_stepfile_list *steps)
+{
+    const tn_solids *solids = ifc->solids;
+    const tn_rectangle *from = &ifc->house->faces[face].at;
+    double x0 = (double)from->x0, y0 = (double)from->y0, floor = (double)ifc->house->form->level[ifc->storey];
+    for (size_t i = 0; i < solids->prism_count; i++) {
+        const tn_prism *prism = &solids->prisms[i];
+        tn_block_corner corners[TN_FACET_CORNERS];
+        if (prism->kind != TN_SOLID_FLIGHT || prism->of != face)
+            continue;
+        for (size_t k = 0; k < prism->corner_count; k++) {
+            const tn_prism_corner *c = &solids->corners[prism->corner_first + k];
+            corners[k] = (tn_block_corner){tn_fraction_value(c->x) - x0, tn_fraction_value(c->y) - y0,
+                                           tn_fraction_value(c->low) - floor, tn_fraction_value(c->high) - floor};
+        }
+        tn_stepfile_list_add(steps, tn_stepfile_prism(&ifc->step, corners, prism->corner_count));
+    }
+    for (size_t i = 0; steps->count > 0 && i < solids->box_count; i++) {
+        const tn_solid *s = &solids->boxes[i];
+        if (s->kind != TN_SOLID_FLIGHT || s->of != face)
+            continue;
+        double low = (double)s->at.z0 - floor, high = (double)s->at.z1 - floor, x[2], y[2];
+        for (int k = 0; k < 2; k++) {
+            x[k] = (double)(k ? s->at.x1 : s->at.x0) - x0;
+            y[k] = (double)(k ? s->at.y1 : s->at.y0) - y0;
+        }
+        const tn_block_corner corners[4] = {
+            {x[0], y[0], low, high}, {x[1], y[0], low, high}, {x[1], y[1], low, high}, {x[0], y[1], low, high}};
+        tn_stepfile_list_add(steps, tn_stepfile_prism(&ifc->step, corners, 4));
+    }
+}
+
 /* The steps and landings of a flight, as one shape; 0 where a stair has none. */
 static unsigned put_steps(tn_ifc *ifc, uint32_t face)
 {
@@ -619,6 +654,14 @@ static unsigned put_steps(tn_ifc *ifc, uint32_t face)
     tn_stepfile_list steps = {0};
     const tn_rectangle *from = &ifc->house->faces[face].at;
     double floor = (double)ifc->house->form->level[ifc->storey];
+    put_winding(ifc, face, &steps);
+    const char *winding = tn_stepfile_list_text(&steps);
+    if (winding) {
+        unsigned shape = tn_stepfile_faceted(step, winding);
+        ifc->failed |= steps.text.failed;
+        tn_stepfile_list_clear(&steps);
+        return shape;
+    }
     for (size_t i = 0; i < ifc->solids->box_count; i++) {
         const tn_solid *s = &ifc->solids->boxes[i];
         if (s->kind != TN_SOLID_FLIGHT || s->of != face)
@@ -640,9 +683,11 @@ static const char *stair_type(const tn_opening_record *flight)
     case TN_TURN_STRAIGHT:
         return "STRAIGHT_RUN_STAIR";
     case TN_TURN_QUARTER:
-        return "QUARTER_TURN_STAIR";
+        return flight->winders ? "QUARTER_WINDING_STAIR" : "QUARTER_TURN_STAIR";
     case TN_TURN_HALF:
-        return "HALF_TURN_STAIR";
+        return flight->winders ? "HALF_WINDING_STAIR" : "HALF_TURN_STAIR";
+    case TN_TURN_SPIRAL:
+        return "SPIRAL_STAIR";
     default:
         return "NOTDEFINED";
     }

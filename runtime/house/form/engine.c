@@ -84,7 +84,14 @@ static tn_status check_openings(const tn_checker *checker, const tn_form_record 
 {
     for (uint32_t i = 0; i < form->opening_count; i++) {
         const tn_opening_record *opening = &checker->module->OPENING_records[form->opening_first + i];
-        if (opening->turn != TN_TURN_NONE && (opening->rise_least < 1 || opening->rise_most < 1 || opening->going < 1))
+        bool spiral = opening->turn == TN_TURN_SPIRAL,
+             corners = opening->turn == TN_TURN_HALF || opening->turn == TN_TURN_QUARTER;
+        if (opening->winders > 0 && (opening->winders < 2 || !corners))
+            return tn_refuse(checker, "flight %u has wedges that it cannot have", form->opening_first + i);
+        if ((opening->winders > 0 || spiral) && form->way == 0)
+            return tn_refuse(checker, "flight %u has wedges in a form without ways", form->opening_first + i);
+        if (opening->turn != TN_TURN_NONE &&
+            (opening->rise_least < 1 || opening->rise_most < 1 || (opening->going < 1 && !spiral)))
             return tn_refuse(checker, "flight %u has steps without a rise or a going", form->opening_first + i);
         if (opening->near_x == TN_HOUSE_BACK || opening->near_x == TN_HOUSE_FRONT || opening->near_y > TN_HOUSE_FRONT)
             return tn_refuse(checker, "opening %u is near no end of its walls", form->opening_first + i);

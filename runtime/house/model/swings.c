@@ -29,8 +29,8 @@ static tn_status take_steps(const tn_house *house, const tn_face *face, tn_taken
 {
     tn_flight flight;
     tn_status status = tn_flight_stand(house, face, &flight, error);
-    for (size_t i = 0; status == TN_OK && i < flight.tread_count; i++) {
-        tn_box at = flight.treads[i];
+    for (size_t i = 0; status == TN_OK && i < flight.tread_count + flight.wedge_count; i++) {
+        tn_box at = i < flight.tread_count ? flight.treads[i] : tn_wedge_box(&flight.wedges[i - flight.tread_count]);
         status = tn_rectangles_add(&taken->items, (tn_rectangle){at.x0, at.x1, at.y0, at.y1}, error);
     }
     tn_flight_clear(&flight);

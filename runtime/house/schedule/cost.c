@@ -272,6 +272,8 @@ static tn_status add_roofs(const tn_house *house, const tn_solids *solids, tn_co
         return tn_fail_memory(error);
     for (size_t i = 0; i < solids->prism_count; i++) {
         const tn_prism *prism = &solids->prisms[i];
+        if (prism->kind == TN_SOLID_FLIGHT)
+            continue;
         tn_cost_line *line = &costs->lines[tn_solid_made_part(house, prism->kind, prism->of, 0)];
         add_prism(house, solids, prism, line);
         line->count += prism->kind == TN_SOLID_ROOF && !counted[prism->of];
@@ -369,6 +371,24 @@ static bool is_piece_of(const tn_solid *s, const tn_solid *before)
     return (is_wall(s->kind) || s->kind == TN_SOLID_GUARD) && s->kind == before->kind && s->of == before->of;
 }
 
+static void add_wedge(const tn_wedge *wedge, tn_cost_line *line)
+{
+    tn_int128 twice = 0;
+    mpq_t area, high;
+    mpq_inits(area, high, NULL);
+    for (size_t i = 0; i < wedge->count; i++) {
+        const int64_t *a = wedge->at[i], *b = wedge->at[(i + 1) % wedge->count];
+        twice += (tn_int128)a[0] * b[1] - (tn_int128)b[0] * a[1];
+    }
+    set_wide(mpq_numref(area), twice);
+    mpq_div_2exp(area, area, 1);
+    mpq_add(line->area, line->area, area);
+    mpz_set_si(mpq_numref(high), wedge->levels[2] - wedge->levels[0]);
+    mpq_mul(area, area, high);
+    mpq_add(line->volume, line->volume, area);
+    mpq_clears(area, high, NULL);
+}
+
 /* Their steps count whole, also where a post stands in one, so that a flight costs the same in all its places. */
 static tn_status add_flights(const tn_house *house, const tn_costs *costs, tn_error *error)
 {
@@ -377,10 +397,14 @@ static tn_status add_flights(const tn_house *house, const tn_costs *costs, tn_er
     for (size_t i = 0; status == TN_OK && i < flights.count; i++) {
         const tn_flight *flight = &flights.items[i];
         tn_solid step = {.kind = TN_SOLID_FLIGHT, .of = flight->face};
+        tn_cost_line *line = line_of(house, &step, costs);
+        line->count += flight->tread_count + flight->wedge_count > 0;
         for (size_t t = 0; t < flight->tread_count; t++) {
             step.at = flight->treads[t];
-            add_box(house, &step, t == 0, line_of(house, &step, costs));
+            add_box(house, &step, false, line);
         }
+        for (size_t w = 0; w < flight->wedge_count; w++)
+            add_wedge(&flight->wedges[w], line);
     }
     tn_flights_clear(&flights);
     return status;

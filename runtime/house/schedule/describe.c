@@ -245,7 +245,7 @@ static void put_solids(const tn_house *house, const tn_solids *solids, tn_json *
     tn_json_list_end(json);
 }
 
-static void put_roof(const tn_solids *solids, const tn_prism *prism, tn_json *json)
+static void put_prism(const tn_solids *solids, const tn_prism *prism, tn_json *json)
 {
     tn_json_object(json, NULL);
     tn_json_string(json, "kind", tn_solid_kind_text(prism->kind));
@@ -264,11 +264,21 @@ static void put_roof(const tn_solids *solids, const tn_prism *prism, tn_json *js
     tn_json_object_end(json);
 }
 
-static void put_roofs(const tn_solids *solids, tn_json *json)
+static bool has_wedges(const tn_solids *solids)
 {
-    tn_json_list(json, "roofs");
     for (size_t i = 0; i < solids->prism_count; i++)
-        put_roof(solids, &solids->prisms[i], json);
+        if (solids->prisms[i].kind == TN_SOLID_FLIGHT)
+            return true;
+    return false;
+}
+
+/* Those of roofs and of the walls below them, or the wedges of flights. */
+static void put_prisms(const tn_solids *solids, const char *name, bool wedges, tn_json *json)
+{
+    tn_json_list(json, name);
+    for (size_t i = 0; i < solids->prism_count; i++)
+        if ((solids->prisms[i].kind == TN_SOLID_FLIGHT) == wedges)
+            put_prism(solids, &solids->prisms[i], json);
     tn_json_list_end(json);
 }
 
@@ -334,7 +344,9 @@ static tn_status put_house(const tn_house *house, const tn_solids *solids, const
     tn_status status = put_faces(house, json, error);
     put_rooms(house, rooms, json);
     put_solids(house, solids, json);
-    put_roofs(solids, json);
+    put_prisms(solids, "roofs", false, json);
+    if (has_wedges(solids))
+        put_prisms(solids, "wedges", true, json);
     put_parts(house, costs, json);
     if (tn_form_has_costs(house->form))
         put_money(json, "cost", costs->hundredths);
