@@ -31,7 +31,7 @@ made "$files/gallery.plan" "$("$TARTAN" sample "$files/gallery.plan" 1 --library
 is 'a gallery' "$($python "$here/../house_files.py" "$scratch/gallery" "${reader[@]}")" fine
 made "$files/guards.plan" '3m shallow:6m hall:4m | 4m deep:7m hall:4m | 5m shallow:6m hall:4m' guarded
 is 'a house with guards' "$($python "$here/../house_files.py" "$scratch/guarded" "${reader[@]}")" fine
-is 'the price of its guards' "$(grep ^guard "$scratch/guarded/house.parts.csv")" 'guard,7,22.143000,1.107150,steel,90.000000,m2,1992.87'
+is 'the price of its guards' "$(grep ^guard "$scratch/guarded/house.parts.csv" | tr -d '\r')" 'guard,7,22.143000,1.107150,steel,90.000000,m2,1992.87'
 is 'a hut' "$($python "$here/../house_files.py" "$scratch/hut" "${reader[@]}")" fine
 letters=$("$TARTAN" sample "$files/letters.plan" 1 --library häuser --where 'quantity(tray(gang), n > 1)' --seed 3)
 title="it's \\ küche 寝室 𐤀 \"x\""
