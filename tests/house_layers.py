@@ -190,9 +190,47 @@ def cents(cost):
     return (cost * 200 + 1) // 2
 
 
+# ---- walls over nothing
+
+
+def unborne(form, house, face):
+    """The longest stretch of a wall, an inch at a time, without a wall as thick or a post below; None: it is borne. Planes are whole inches apart."""
+    thick = whole(form, wall_of(face)) if stands(face) else 0
+    if thick <= whole(form, "partition") or storey_of(house, face) == 0:
+        return None
+    k, plane = (2, face["at"][0]) if is_along_y(face) else (0, face["at"][2])
+    below = [f for f in house["faces"] if f["rel"] != "above" and storey_of(house, f) + 1 == storey_of(house, face)]
+    strong = [f for f in below if stands(f) and whole(form, wall_of(f)) >= thick]
+    posts = {point for f in below if f["rel"] == "outside" and f["kind"] == "open" for point in ((f["at"][0], f["at"][2]), (f["at"][1], f["at"][3]))}
+
+    def has(f, point):
+        return f["at"][0] <= point[0] <= f["at"][1] and f["at"][2] <= point[1] <= f["at"][3]
+
+    longest = run = 0
+    for at in range(face["at"][k], face["at"][k + 1], INCH):
+        ends = [(plane, at + d) if k == 2 else (at + d, plane) for d in (0, INCH)]
+        borne = any(has(f, ends[0]) and has(f, ends[1]) for f in strong)
+        if borne or ends[0] in posts or any(has(f, ends[0]) for f in strong):
+            run = 0
+        run = 0 if borne else run + 1
+        longest = max(longest, run)
+    return longest or None
+
+
+def feet(inches):
+    whole_feet, rest = divmod(inches, 12)
+    return f"{whole_feet}'" if rest == 0 else f'{rest}"' if whole_feet == 0 else f"{whole_feet}'{rest}\""
+
+
+def place(house, face):
+    cell = house["cells"][face["a"]]
+    name = lambda c: f"{c['tray'] + 1}.{c['zone']}.{('low', 'high')[c['storey']]}"
+    return f"{name(cell)}, {face['side']}" if face["b"] is None else f"{name(cell)} to {name(house['cells'][face['b']])}"
+
+
 class Checker:
     def __init__(self, tartan):
-        self.tartan, self.failures, self.counted = tartan, [], 0
+        self.tartan, self.failures, self.counted, self.hanging = tartan, [], 0, 0
 
     def run(self, *words):
         made = subprocess.run([self.tartan, *words], capture_output=True, text=True)
@@ -251,6 +289,17 @@ class Checker:
         houses = [line for line in self.run("count", path, "--library", library).splitlines() if line.startswith("houses ")]
         return int(houses[0].split()[1]) if houses else 0
 
+    def check_hanging(self, form, house, path, line, where):
+        want = [f"{place(house, f)}, along {feet(n)}" for f in house["faces"] for n in [unborne(form, house, f)] if n]
+        said = subprocess.run([self.tartan, "house", path, line], capture_output=True, text=True).stderr
+        notes = [text.strip() for text in said.split("W217")[1].splitlines() if text.strip().startswith("note: ")] if "W217" in said else []
+        notes = [text.removeprefix("note: ") for text in notes]
+        more = [f"and {len(want) - 8} more"] if len(want) > 8 else []
+        self.check(f"{where}: walls over nothing are {notes}, not {want}", notes == want[:8] + more)
+        self.hanging += len(want)
+        explained = json.loads(self.run("explain", path, line, "--library", "all", "--json"))
+        self.check(f"{where}: they are explained", [w["wall"] for w in explained.get("hanging", [])] == want)
+
     def check_form(self, seed, folder):
         form, path, plain = Form(seed), f"{folder}/{seed}.plan", f"{folder}/{seed}-plain.plan"
         open(path, "w").write(form.text())
@@ -260,6 +309,7 @@ class Checker:
             where = f"form {seed}, {line}"
             self.check_solids(form, house, where)
             self.check_bill(form, house, folder, where)
+            self.check_hanging(form, house, path, line, where)
             same = self.house(plain, line, folder)
             self.check(f"{where}: the solids are those without layers", [(s["kind"], s["of"], s["box"]) for s in house["solids"]] == [(s["kind"], s["of"], s["box"]) for s in same["solids"]])
         self.check_count(form, path, folder)
@@ -272,6 +322,7 @@ def main():
         for seed in range(first, first + count):
             checker.check_form(seed, folder)
     if count > 3:
+        checker.check("no wall stands over nothing", checker.hanging > 0)
         checker.check("no form had few enough houses to be gone through", checker.counted > 0)
     print("\n".join(checker.failures[:20]) or "fine")
     sys.exit(1 if checker.failures else 0)

@@ -44,6 +44,9 @@ tn_status tn_explain_found(tn_house_explaining *e, uint32_t function, tn_list *w
 /* Adds the cells in which no tile stands to a list of tn_bare_cell. */
 tn_status tn_explain_bare(tn_house_explaining *e, tn_list *bare, tn_error *error);
 
+/* Adds the walls that stand over nothing thicker than a partition to a list of tn_hanging_wall. */
+tn_status tn_explain_hanging(tn_house_explaining *e, tn_list *hanging, tn_error *error);
+
 /* Adds the openings that lower roofs keep out of faces to a list of tn_covered_opening. */
 tn_status tn_explain_covered(tn_house_explaining *e, tn_list *covered, tn_error *error);
 

@@ -472,6 +472,26 @@ tn_status tn_explain_covered(tn_house_explaining *e, tn_list *list, tn_error *er
     return TN_OK;
 }
 
+/* ---- walls over nothing */
+
+tn_status tn_explain_hanging(tn_house_explaining *e, tn_list *list, tn_error *error)
+{
+    int64_t from, to;
+    for (uint32_t i = 0; i < e->house.face_count; i++) {
+        char text[400];
+        if (!tn_face_hangs(&e->house, &e->house.faces[i], &from, &to))
+            continue;
+        tn_hanging_wall *wall = tn_message_add(&tn_message_hanging_wall, list, error);
+        if (!wall)
+            return TN_MEMORY;
+        tn_hanging_text(&e->house, i, from, to, text, sizeof text);
+        wall->wall = strdup(text);
+        if (!wall->wall)
+            return tn_fail_memory(error);
+    }
+    return TN_OK;
+}
+
 /* ---- looks for kept houses near to one that is dropped */
 
 enum { NEAREST_MAX = 5 };
@@ -775,6 +795,9 @@ static tn_status explain_library(tn_house_explaining *e, tn_explained_house *to,
         status = tn_explain_bare(e, (tn_list *)&to->bare, error);
     if (status == TN_OK)
         status = tn_explain_covered(e, (tn_list *)&to->behind_roofs, error);
+    if (status == TN_OK)
+        status = tn_explain_hanging(e, (tn_list *)&to->hanging, error);
+    to->has_hanging = to->hanging.count > 0;
     to->kept = !drops && to->bare.count == 0;
     to->has_nearest = !to->kept && !by_plan;
     return status == TN_OK && to->has_nearest ? tn_explain_nearest(e, to, error) : status;

@@ -6,6 +6,7 @@
 #include "ask/house/typed.h"
 #include "ask/session/made.h"
 #include "ask/session/questions.h"
+#include "compiler/plan/syntax/program.h"
 #include "driver/house/change_text.h"
 #include "driver/house/files.h"
 #include "runtime/base/integers.h"
@@ -326,6 +327,42 @@ static tn_status set_line(const tn_house *house, tn_built_house *built, tn_error
     return status == TN_OK && line.failed ? tn_fail_memory(error) : status;
 }
 
+enum { HANGING_SHOWN = 8 }; /* walls of a storey that are named */
+
+/* Warns of walls of a storey that stand over nothing thicker than a partition, at the line of the storey. */
+static void warn_of_hanging(const building *b, const tn_house *house, uint32_t storey)
+{
+    tn_compilation *compilation = &b->session->opened->compilation;
+    const tn_house_form *form = house->form;
+    const tn_storey_record *record = &form->module->STOREY_records[form->record->storey_first + storey];
+    tn_span span = {record->file, record->begin, record->end};
+    uint32_t walls[HANGING_SHOWN];
+    size_t count = 0;
+    int64_t from, to;
+    for (uint32_t i = 0; i < house->face_count; i++)
+        if (house->faces[i].storey == storey && tn_face_hangs(house, &house->faces[i], &from, &to)) {
+            if (count < HANGING_SHOWN)
+                walls[count] = i;
+            count++;
+        }
+    if (count == 0 || tn_program_allows(compilation->program, W_HANGING_WALL, span))
+        return;
+    tn_diagnostics *list = &compilation->diagnostics;
+    tn_diagnostic *d = tn_report(list, W_HANGING_WALL, span,
+                                 count == 1 ? "a wall of storey `%s` stands over nothing thicker than a partition"
+                                            : "walls of storey `%s` stand over nothing thicker than a partition",
+                                 tn_text(form->module, record->name));
+    for (size_t i = 0; i < count && i < HANGING_SHOWN; i++) {
+        char text[400];
+        tn_face_hangs(house, &house->faces[walls[i]], &from, &to);
+        tn_hanging_text(house, walls[i], from, to, text, sizeof text);
+        tn_note(list, d, NULL, "%s", text);
+    }
+    if (count > HANGING_SHOWN)
+        tn_note(list, d, NULL, "and %zu more", count - HANGING_SHOWN);
+    tn_help(list, d, "what bears such a wall is a wall of that thickness below, outside or `party`, or a post");
+}
+
 static tn_status write_all(void *context, const tn_house *house, tn_error *error)
 {
     building *b = context;
@@ -339,6 +376,8 @@ static tn_status write_all(void *context, const tn_house *house, tn_error *error
     for (size_t i = 0; status == TN_OK && i < b->request->files.count; i++)
         status = write_file(b, b->request->files.items[i], error);
     tn_solids_clear(&solids);
+    for (uint32_t k = 1; status == TN_OK && k < house->form->record->storey_count; k++)
+        warn_of_hanging(b, house, k);
     return status;
 }
 

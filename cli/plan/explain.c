@@ -59,6 +59,13 @@ static void write_covered(const tn_explained_house *explained, tn_buffer *out)
     }
 }
 
+static void write_hanging(const tn_explained_house *explained, tn_buffer *out)
+{
+    for (size_t i = 0; i < explained->hanging.count; i++)
+        tn_buffer_printf(out, "%s    %s\n", i ? "" : "walls over nothing thicker than a partition:\n",
+                         explained->hanging.items[i].wall);
+}
+
 static void write_steps(const tn_nearest_house *near, tn_buffer *out)
 {
     tn_buffer_printf(out, "kept with these changes together:\n");
@@ -95,6 +102,8 @@ static void explain_house_text(const tn_explained_house *explained, bool full, t
         write_bare(&explained->bare.items[i], true, out);
     if (full)
         write_covered(explained, out);
+    if (full)
+        write_hanging(explained, out);
     if (explained->has_nearest)
         write_nearest(explained, out);
 }

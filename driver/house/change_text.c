@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "runtime/base/length.h"
+#include "runtime/house/solids.h"
 
 static const char *text_of(const tn_house *house, uint32_t string)
 {
@@ -34,6 +35,16 @@ void tn_face_text(const tn_house *house, uint32_t index, char *text, size_t size
     }
     tn_cell_text(house, face->second, other, sizeof other);
     snprintf(text, size, "%s to %s", cell, other);
+}
+
+void tn_hanging_text(const tn_house *house, uint32_t face, int64_t from, int64_t to, char *text, size_t size)
+{
+    char at[256], length[64];
+    tn_length_style style = tn_house_length_style(house);
+    bool whole = style != TN_STYLE_FEET || (to - from) % (TN_INCH_NM / 64) == 0; /* other lengths are in metres */
+    tn_face_text(house, face, at, sizeof at);
+    tn_length_write_style(to - from, whole ? style : TN_STYLE_METRES, length, sizeof length);
+    snprintf(text, size, "%s, along %s", at, length);
 }
 
 static void name_tile(const tn_house *house, uint32_t cell, size_t variant, char text[TN_VARIANT_TEXT])

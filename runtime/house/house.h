@@ -152,6 +152,12 @@ static inline bool tn_face_is_open_side(const tn_face *face)
 /* The thickness of the wall that stands in a face; 0 where none does. */
 int64_t tn_face_thickness(const tn_house *house, const tn_face *face);
 
+/* ---- bearing.c */
+
+/* Does an outside or party wall stand there, above the lowest storey, over nothing that is as thick? from, to: along
+ * the face, the longest stretch without a wall or post below that is, the first of equal ones. */
+bool tn_face_hangs(const tn_house *house, const tn_face *face, int64_t *from, int64_t *to);
+
 /* ---- house_line.c */
 
 /* Reads a house line: `plan ; section ; functions ; faces ; tiles`. Parts at the end that leave no choice may be left

@@ -1,0 +1,1 @@
+house house-hanging.plan #3:0 --library all
