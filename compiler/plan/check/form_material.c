@@ -223,6 +223,8 @@ static void check_layer_name(tn_check *check, const tn_checked_form *form, const
                                                                           : NULL;
     for (uint32_t i = 0; i < TN_OF_COUNT; i++)
         what = strcmp(tn_names_OF[i], name->text) == 0 ? "a part of every form" : what;
+    if (strcmp(name->text, "guard") == 0)
+        what = "what keeps people from falling";
     if (!what) {
         tn_name_fits(check->diagnostics, name->text, name->node.span);
         return;
