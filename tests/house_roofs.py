@@ -12,12 +12,12 @@ def inches(low, high):
 
 
 def roof():
-    kind = chance.choice(("flat", "gable", "vault", "shed"))
+    kind = chance.choice(("flat", "gable", "vault", "shed", "hip", "cross-gable"))
     slope = f"{chance.randint(1, 7)}:{chance.randint(8, 15)}"
-    said = {"flat": [], "gable": [slope], "vault": [inches(9, 40)], "shed": [chance.choice(("back", "front")), slope]}[kind]
+    said = {"flat": [], "gable": [slope], "hip": [slope], "cross-gable": [slope], "vault": [inches(9, 40)], "shed": [chance.choice(("back", "front")), slope]}[kind]
     if chance.random() < 0.7:
         said.append("eaves " + inches(1, 20))
-    if chance.random() < 0.5:
+    if chance.random() < 0.5 and kind != "hip":
         said.append("open")
     if kind in ("gable", "vault") and chance.random() < 0.5:
         said.append("across")

@@ -50,7 +50,7 @@ class Roof:
     """`gable(9:12,eaves-1'6",open)`, as a house line has it."""
 
     def __init__(self, text):
-        self.kind, inside = re.fullmatch(r"([a-z ]+)(?:\((.*)\))?", text.replace("cross-", "cross ")).groups()
+        self.kind, inside = re.fullmatch(r"([a-z-]+)(?:\((.*)\))?", text).groups()
         words = inside.split(",") if inside else []
         self.open, self.across = "open" in words, "across" in words
         self.eaves = next((length(w[6:]) for w in words if w.startswith("eaves")), 0)
@@ -127,7 +127,7 @@ class House:
             first, last = self.run(cell)
             return min([gable] + [roof.slope * (x - self.grown(first)[0])] * self.is_free(first, -1)
                        + [roof.slope * (self.grown(last)[1] - x)] * self.is_free(last, 1))
-        if roof.kind == "cross gable":
+        if roof.kind == "cross-gable":
             x0, x1 = self.cells[cell]["rect"][:2]
             return max(gable, roof.slope * min(x - x0, x1 - x))
         return gable

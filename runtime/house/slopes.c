@@ -86,8 +86,14 @@ tn_slopes tn_roof_slopes(const tn_house *house, const tn_cell *cell)
         slopes.items[slopes.count++] = (tn_slope){0, -(tn_int128)shape->rise, (tn_int128)shape->rise * to};
         break;
     case TN_ROOF_GABLE:
+    case TN_ROOF_HIP:
         add_gable(&slopes, in_x, from, to, shape->rise);
         break;
+    case TN_ROOF_CROSS_GABLE: /* from plane to plane, so that valleys come down to the eaves */
+        add_gable(&slopes, false, from, to, shape->rise);
+        add_gable(&slopes, true, cell->at.x0, cell->at.x1, shape->rise);
+        slopes.first = 2;
+        return slopes;
     case TN_ROOF_VAULT:
         return vault(in_x, from, to, shape->height);
     default:
@@ -97,9 +103,66 @@ tn_slopes tn_roof_slopes(const tn_house *house, const tn_cell *cell)
     return slopes;
 }
 
+/* The cell of the next or the last tray that goes on with the roof of a cell; TN_NO_CELL: there is none. */
+static uint32_t goes_on_with(const tn_house *house, uint32_t index, bool right)
+{
+    const tn_cell *cell = &house->cells[index];
+    uint32_t tray = right ? cell->tray + 1 : cell->tray - 1;
+    if (right ? tray == house->length : cell->tray == 0)
+        return TN_NO_CELL;
+    for (uint32_t i = house->tray_first[tray]; i < house->tray_first[tray + 1]; i++) {
+        const tn_cell *other = &house->cells[i];
+        if (other->zone == cell->zone && other->storey == cell->storey && other->at.y0 == cell->at.y0 &&
+            other->at.y1 == cell->at.y1 && tn_cell_is_top(house, i))
+            return i;
+    }
+    return TN_NO_CELL;
+}
+
+/* Does a higher wall stand against all of the end of a cell's roof? */
+static bool ends_at_wall(const tn_house *house, uint32_t index, bool right)
+{
+    const tn_cell *cell = &house->cells[index];
+    uint32_t tray = right ? cell->tray + 1 : cell->tray - 1;
+    int64_t at = cell->at.y0;
+    bool further = right ? tray < house->length : cell->tray > 0;
+    while (further && at < cell->at.y1) {
+        int64_t reached = at;
+        for (uint32_t i = house->tray_first[tray]; i < house->tray_first[tray + 1]; i++) {
+            const tn_cell *other = &house->cells[i];
+            if (other->storey == cell->storey + 1 && other->at.y0 <= reached && other->at.y1 > reached)
+                reached = other->at.y1;
+        }
+        further = reached > at;
+        at = reached;
+    }
+    return at >= cell->at.y1;
+}
+
+/* The end of a hip slopes down from where the roof goes on no more, half a wall beyond the last cell; not towards a
+ * higher wall, where water would stand. */
+static void add_end(const tn_house *house, uint32_t index, bool right, uint32_t rise, tn_slopes *slopes)
+{
+    for (uint32_t next = index; next != TN_NO_CELL; next = goes_on_with(house, index, right))
+        index = next;
+    if (ends_at_wall(house, index, right))
+        return;
+    tn_rectangle last = tn_cell_grown(house, &house->cells[index]);
+    slopes->items[slopes->count++] =
+        right ? across_ridge(true, -(tn_int128)rise, (tn_int128)rise * last.x1)
+              : across_ridge(true, rise, -(tn_int128)rise * last.x0);
+}
+
 tn_slopes tn_roof_slopes_of(const tn_house *house, uint32_t cell)
 {
-    return tn_roof_slopes(house, &house->cells[cell]);
+    const tn_shape_record *shape = tn_house_shape(house, house->cells[cell].zone, TN_CHOICE_ROOF);
+    tn_slopes slopes = tn_roof_slopes(house, &house->cells[cell]);
+    if (!shape || shape->roof != TN_ROOF_HIP)
+        return slopes;
+    add_end(house, cell, false, shape->rise, &slopes);
+    add_end(house, cell, true, shape->rise, &slopes);
+    slopes.first = slopes.count;
+    return slopes;
 }
 
 /* ---- heights */

@@ -42,7 +42,7 @@ static bool read_slope(tn_check *check, const tn_ast_argument *slope, tn_shape_r
 /* How far the eaves hang down below the foot of the roof, at most. */
 static tn_int128 eaves_drop(const tn_shape_record *roof)
 {
-    bool slope = roof->roof >= TN_ROOF_SHED_BACK && roof->roof <= TN_ROOF_GABLE && roof->run > 0;
+    bool slope = roof->roof >= TN_ROOF_SHED_BACK && roof->roof != TN_ROOF_VAULT && roof->run > 0;
     return slope ? (tn_int128)roof->eaves * roof->rise / roof->run : 0;
 }
 
@@ -87,10 +87,15 @@ static bool read_kind(tn_check *check, const tn_ast_shape *shape, size_t *used, 
         record->roof = TN_ROOF_FLAT;
         return true;
     }
-    if (tn_word_is(shape->word, "gable")) {
-        record->roof = TN_ROOF_GABLE;
-        return read_slope(check, first, record);
-    }
+    static const struct {
+        const char *word;
+        tn_roof_kind kind;
+    } slopes[] = {{"gable", TN_ROOF_GABLE}, {"hip", TN_ROOF_HIP}, {"cross-gable", TN_ROOF_CROSS_GABLE}};
+    for (size_t i = 0; i < sizeof slopes / sizeof *slopes; i++)
+        if (tn_word_is(shape->word, slopes[i].word)) {
+            record->roof = slopes[i].kind;
+            return read_slope(check, first, record);
+        }
     bool sides = first && (tn_word_is(first->word, "back") || tn_word_is(first->word, "front"));
     if (tn_word_is(shape->word, "shed") && sides) {
         *used = 2;
@@ -114,8 +119,19 @@ static bool read_roof(tn_check *check, const tn_checked_form *form, const tn_ast
     for (size_t i = used; i < shape->arguments.count; i++)
         if (!read_extra(check, argument(shape, i), record))
             return false;
+    if (record->flags & TN_ROOF_ACROSS && (record->roof == TN_ROOF_HIP || record->roof == TN_ROOF_CROSS_GABLE)) {
+        bad_shape(check, shape->node.span, "this roof has no ridge that could go across the row",
+                  record->roof == TN_ROOF_HIP ? "leave out `across`: a hip slopes to all sides"
+                                              : "leave out `across`: each cell has a gable across already");
+        return true;
+    }
     if (record->flags & TN_ROOF_ACROSS && record->roof != TN_ROOF_GABLE && record->roof != TN_ROOF_VAULT)
         return false;
+    if (record->flags & TN_ROOF_OPEN && record->roof == TN_ROOF_HIP) {
+        bad_shape(check, shape->node.span, "a hip cannot be open to the rooms below",
+                  "leave out `open`, or write `gable`: how low a room is under the end of a hip depends on all of the row");
+        return true;
+    }
     check_eaves(check, form, shape, record);
     return true;
 }
@@ -170,7 +186,7 @@ static bool read_storeys(tn_check *check, const tn_checked_form *form, const tn_
 /* Does what stands in parentheses make a roof of it? */
 static bool is_roof(const tn_ast_shape *shape)
 {
-    static const char *const roofs[] = {"gable", "shed", "vault", "flat"};
+    static const char *const roofs[] = {"gable", "shed", "vault", "flat", "hip", "cross-gable"};
     for (size_t i = 0; shape->arguments.count > 0 && i < sizeof roofs / sizeof *roofs; i++)
         if (tn_word_is(shape->word, roofs[i]))
             return true;

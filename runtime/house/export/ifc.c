@@ -580,6 +580,10 @@ static const char *roof_type(const tn_shape_record *shape)
         return "GABLE_ROOF";
     case TN_ROOF_VAULT:
         return "BARREL_ROOF";
+    case TN_ROOF_HIP:
+        return "HIP_ROOF";
+    case TN_ROOF_CROSS_GABLE:
+        return "NOTDEFINED";
     default:
         return "FLAT_ROOF";
     }

@@ -36,7 +36,7 @@ static tn_status check_choice(const tn_checker *checker, const tn_form_record *f
         return tn_refuse(checker, "choice %u is about no zone of its form's schema", index);
     for (uint32_t i = 0; i < choice->shape_count; i++) {
         const tn_shape_record *shape = &checker->module->SHAPE_records[choice->shape_first + i];
-        bool slope = shape->roof >= TN_ROOF_SHED_BACK && shape->roof <= TN_ROOF_GABLE;
+        bool slope = shape->roof >= TN_ROOF_SHED_BACK && shape->roof != TN_ROOF_VAULT;
         if (choice->kind == TN_CHOICE_STOREYS && (shape->storeys < 1 || shape->storeys > form->storey_count))
             return tn_refuse(checker, "choice %u has a number of storeys that its form has not", index);
         if (choice->kind == TN_CHOICE_ROOF &&

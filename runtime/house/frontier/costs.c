@@ -611,7 +611,7 @@ static bool are_items_priced(const tn_house_form *form)
 
 /* The zones' roofs of the section. */
 typedef struct tn_roofs {
-    bool across;
+    bool across, hip;
     int64_t eaves; /* the widest */
 } tn_roofs;
 
@@ -622,7 +622,9 @@ static tn_roofs roofs_of(const tn_frontier *frontier)
     memcpy(section.shapes, frontier->shapes, frontier->form->record->choice_count * sizeof *section.shapes);
     for (uint32_t z = 0; z < frontier->form->zone_count; z++) {
         const tn_shape_record *shape = tn_house_shape(&section, frontier->form->zones[z], TN_CHOICE_ROOF);
-        roofs.across = roofs.across || (shape && shape->flags & TN_ROOF_ACROSS);
+        roofs.across =
+            roofs.across || (shape && (shape->flags & TN_ROOF_ACROSS || shape->roof == TN_ROOF_CROSS_GABLE));
+        roofs.hip = roofs.hip || (shape && shape->roof == TN_ROOF_HIP);
         roofs.eaves = shape && shape->eaves > roofs.eaves ? shape->eaves : roofs.eaves;
     }
     return roofs;
@@ -694,7 +696,8 @@ tn_status tn_frontier_prices_begin(tn_frontier *frontier, tn_error *error)
     if (!p->asked)
         return TN_OK;
     p->items = are_items_priced(frontier->form);
-    p->across = roofs_of(frontier).across && is_priced(frontier->form, TN_OF_ROOF, BY_ANY);
+    p->across = roofs_of(frontier).across && (is_priced(frontier->form, TN_OF_ROOF, BY_ANY) ||
+                                              is_priced(frontier->form, TN_OF_WALL, BY_ANY));
     const uint32_t none = 0; /* the first list is that of a cell in which nothing fits */
     return tn_intern(&p->lists, &none, 0) == UINT32_MAX ? tn_fail_memory(error) : TN_OK;
 }
@@ -702,6 +705,10 @@ tn_status tn_frontier_prices_begin(tn_frontier *frontier, tn_error *error)
 tn_status tn_frontier_prices_check(const tn_frontier *frontier, const bool *trays, tn_error *error)
 {
     tn_roofs roofs = roofs_of(frontier);
+    bool priced = is_priced(frontier->form, TN_OF_ROOF, BY_ANY) || is_priced(frontier->form, TN_OF_WALL, BY_ANY);
+    if (roofs.hip && priced)
+        return refuse(frontier, "a section has a hip, whose ends are cut off as far as the whole row says",
+                      "keep sections without: `prune section(...)`", error);
     if (frontier->prices.across && roofs.eaves > 0)
         return refuse(frontier, "a section has eaves, and a roof that goes `across`",
                       "keep sections that have only one of both: `prune section(...)`", error);

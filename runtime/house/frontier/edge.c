@@ -447,7 +447,7 @@ static bool push_roofs(const tn_inside *in, tn_key *key)
         const tn_shape_record *shape = tn_house_shape(&in->house, cell->zone, TN_CHOICE_ROOF);
         if (cell->storey + 1 == storeys || !tn_cell_is_top(&in->house, i))
             continue;
-        bool across = shape && shape->flags & TN_ROOF_ACROSS;
+        bool across = shape && (shape->flags & TN_ROOF_ACROSS || shape->roof == TN_ROOF_CROSS_GABLE);
         ok = tn_key_push(key, shape ? (uint32_t)shape->roof : TN_ROOF_FLAT) &&
              tn_key_push(key, shape ? (uint32_t)shape->rise : 0) &&
              tn_key_push(key, shape ? (uint32_t)shape->run : 0) &&

@@ -1,4 +1,5 @@
 /* Makes blocks of a house's solids, and cuts blocks by planes across the axes. */
+#include <math.h>
 #include <stdlib.h>
 
 #include "runtime/base/array.h"
@@ -6,6 +7,10 @@
 
 /* Of a block's polygon that has been cut: along two axes and by two levels. */
 enum { POLYGON_MAX = TN_FACET_CORNERS + 4 };
+
+/* Where a level cuts a slope is rounded to such a part of a nanometre, so that it is the same place wherever it is worked
+ * out from: from the top of a slab, or from the wall below that. */
+#define LEVEL_PARTS 64.0
 
 /* A polygon that is cut. Pieces that share an edge, or a face, get the same corners where both are cut. */
 typedef struct tn_block_polygon {
@@ -294,15 +299,18 @@ static tn_status add_broken(const tn_breaking *b, const tn_prism_polygon *polygo
     return status == TN_OK ? add_broken(b, &rest, axis + 1, error) : status;
 }
 
-static tn_status add_prism(tn_blocks *blocks, const tn_solids *solids, const tn_prism *prism, const tn_breaks *breaks,
-                           tn_error *error)
+static tn_status add_prism(tn_blocks *blocks, const tn_solids *solids, const tn_prism *prism, double slab,
+                           const tn_breaks *breaks, tn_error *error)
 {
     tn_prism_polygon polygon = {.count = prism->corner_count};
     for (size_t i = 0; i < polygon.count; i++)
         polygon.corners[i] = solids->corners[prism->corner_first + i];
     const tn_breaking breaking = {.blocks = blocks,
                                   .breaks = breaks,
-                                  .like = {.kind = prism->kind, .group = prism->kind, .of = prism->of},
+                                  .like = {.kind = prism->kind,
+                                           .group = prism->kind,
+                                           .of = prism->of,
+                                           .slab = prism->kind == TN_SOLID_GABLE ? slab : 0},
                                   .along = {slopes_along(&polygon, 0), slopes_along(&polygon, 1)}};
     return add_broken(&breaking, &polygon, 0, error);
 }
@@ -320,7 +328,7 @@ tn_status tn_blocks_of(const tn_house *house, const tn_solids *solids, tn_blocks
     for (size_t i = 0; status == TN_OK && i < leaves.box_count; i++)
         status = add_box(blocks, &leaves.boxes[i], error);
     for (size_t i = 0; status == TN_OK && i < solids->prism_count; i++)
-        status = add_prism(blocks, solids, &solids->prisms[i], &breaks, error);
+        status = add_prism(blocks, solids, &solids->prisms[i], (double)house->form->record->roof, &breaks, error);
     tn_solids_clear(&leaves);
     free(breaks.at[0]);
     free(breaks.at[1]);
@@ -370,20 +378,50 @@ static tn_status cut_upright(tn_blocks *to, const tn_house_block *b, int axis, d
     return status == TN_OK ? add_polygon(to, b, &part, error) : status;
 }
 
-/* What of a polygon has its top, or its bottom, not above a level; or not below it. */
+/* Where the top, or the bottom, of an edge crosses a level; false: nowhere between its ends. */
+static bool cross_level(const tn_block_corner *a, const tn_block_corner *b, bool top, double level,
+                        tn_block_corner *at)
+{
+    double from = (top ? a->high : a->low) - level, to = (top ? b->high : b->low) - level;
+    if (!((from < 0 && to > 0) || (from > 0 && to < 0)))
+        return false;
+    *at = between(a, b, from, to);
+    double *numbers[4] = {&at->x, &at->y, &at->low, &at->high};
+    for (int k = 0; k < 4; k++)
+        *numbers[k] = rint(*numbers[k] * LEVEL_PARTS) / LEVEL_PARTS;
+    *(top ? &at->high : &at->low) = level;
+    return true;
+}
+
+/* A polygon with corners wherever its top or its bottom crosses a level: on whole edges, so that those beside it have
+ * the same. */
+static tn_block_polygon with_crossings(const tn_block_polygon *polygon, double level)
+{
+    tn_block_polygon with = {.count = 0};
+    for (size_t i = 0; i < polygon->count && with.count + 3 <= POLYGON_MAX; i++) {
+        const tn_block_corner *a = &polygon->corners[i], *b = &polygon->corners[(i + 1) % polygon->count];
+        tn_block_corner at[2];
+        size_t count = 0;
+        for (int top = 0; top < 2; top++)
+            count += cross_level(a, b, top, level, &at[count]);
+        bool turned = count == 2 && (at[0].x - at[1].x) * (b->x - a->x) + (at[0].y - at[1].y) * (b->y - a->y) > 0;
+        with.corners[with.count++] = *a;
+        for (size_t k = 0; k < count; k++)
+            with.corners[with.count++] = at[turned ? 1 - k : k];
+    }
+    return with;
+}
+
+/* What of such a polygon has its top, or its bottom, not above a level; or not below it. */
 static tn_block_polygon level_part(const tn_block_polygon *polygon, bool top, double level, bool above)
 {
-    double values[POLYGON_MAX];
+    double values[POLYGON_MAX] = {0};
     bool made[POLYGON_MAX];
     for (size_t i = 0; i < polygon->count; i++) {
         double over = (top ? polygon->corners[i].high : polygon->corners[i].low) - level;
         values[i] = above ? over : -over;
     }
-    tn_block_polygon part = keep_above(polygon, values, made);
-    for (size_t i = 0; i < part.count; i++)
-        if (made[i])
-            *(top ? &part.corners[i].high : &part.corners[i].low) = level;
-    return part;
+    return keep_above(polygon, values, made);
 }
 
 /* A part of a block that the level cuts all over: the level becomes its top. */
@@ -405,18 +443,33 @@ static tn_status keep_below(tn_blocks *to, const tn_house_block *b, tn_block_pol
     return status == TN_OK ? add_polygon(to, b, &part, error) : status;
 }
 
-/* Only what lies below a level is ever kept. */
-static tn_status cut_level(tn_blocks *to, const tn_house_block *b, double level, tn_error *error)
+/* What of a part of a block is below a level. */
+static tn_status cut_polygon(tn_blocks *to, const tn_house_block *b, const tn_block_polygon *polygon, double level,
+                             tn_error *error)
 {
-    if (b->high[2] <= level)
-        return add_block(to, b, error);
-    if (b->low[2] >= level)
-        return TN_OK;
-    tn_block_polygon whole = polygon_of(b), below = level_part(&whole, true, level, false),
+    tn_block_polygon whole = with_crossings(polygon, level), below = level_part(&whole, true, level, false),
                      cut = level_part(&whole, true, level, true);
     tn_status status = add_polygon(to, b, &below, error);
     cut = level_part(&cut, false, level, false);
     return status == TN_OK ? keep_below(to, b, cut, level, error) : status;
+}
+
+/* Only what lies below a level is ever kept. A wall below a slab is cut where the slab is: where the level goes through
+ * the top of that, too. */
+static tn_status cut_level(tn_blocks *to, const tn_house_block *b, double level, tn_error *error)
+{
+    if (b->slab == 0 && b->high[2] <= level)
+        return add_block(to, b, error);
+    if (b->low[2] >= level)
+        return TN_OK;
+    tn_block_polygon whole = polygon_of(b);
+    if (b->slab == 0)
+        return cut_polygon(to, b, &whole, level, error);
+    double top = level - b->slab;
+    whole = with_crossings(&whole, top);
+    tn_block_polygon lower = level_part(&whole, true, top, false), upper = level_part(&whole, true, top, true);
+    tn_status status = cut_polygon(to, b, &lower, level, error);
+    return status == TN_OK ? cut_polygon(to, b, &upper, level, error) : status;
 }
 
 tn_status tn_blocks_cut(tn_blocks *blocks, int axis, double at, bool above, tn_error *error)

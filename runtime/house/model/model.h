@@ -19,10 +19,12 @@ typedef struct tn_block_corner {
     double x, y, low, high;
 } tn_block_corner;
 
-/* of, item: as in tn_solid; of a prism, the cell. group: of its faces in a mesh; at first its kind. */
+/* of, item: as in tn_solid; of a prism, the cell. group: of its faces in a mesh; at first its kind. slab: how thick the
+ * slab above a wall is that lies on it; 0 if none does. */
 typedef struct tn_house_block {
     tn_solid_kind kind;
     uint32_t of, item, group, count;
+    double slab;
     tn_block_corner corners[TN_BLOCK_CORNERS];
     double low[3], high[3]; /* its bounds */
 } tn_house_block;
