@@ -74,7 +74,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token PARAM "`param`" WITH "`with`" ONTO "`onto`" BY_MEASURE "`measure` of plans" BY_RULE "`rule` of plans"
 %token PLUS "`+`" STAR "`*`" SLASH "`/`" ELLIPSIS "`...`" QUESTION "`?`"
 %token FORM "`form`" STOREY "`storey`" SPINE "`spine`" WALL "`wall`" PARTITION "`partition`" DECK "`deck`" ROOF "`roof`"
-%token SECTION "`section`" VOID "`void`" NO "`no`" FUNCTION "`function`" AT "`at`" CELL "`cell`"
+%token SECTION "`section`" VOID "`void`" NO "`no`" FUNCTION "`function`" OUTDOOR "`outdoor`" AT "`at`" CELL "`cell`"
 %token OPENING "`opening`" WIDE "`wide`" HIGH "`high`" SILL "`sill`" CLEAR "`clear`" PASSAGE "`passage`"
 %token WAY "`way`" HEADROOM "`headroom`" GUARD "`guard`"
 %token FLIGHT "`flight`" RISE "`rise`" GOING "`going`" TURN "`turn`" WINDERS "`winders`"
@@ -772,6 +772,7 @@ form_clause
     | void cells                                { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_VOID, .first = $2}); }
     | no cells                                  { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_NO, .first = $2}); }
     | function NAME doc AT cells                { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_FUNCTION, .name = $2, .doc = $3, .first = $5}); }
+    | function NAME doc OUTDOOR AT cells        { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_FUNCTION, .name = $2, .doc = $3, .outdoor = true, .first = $6}); }
     | opening NAME doc WIDE size HIGH size opening_parts
                                                 { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_OPENING, .name = $2, .doc = $3, .length = $5, .high = $7, .parts = $8}); }
     | flight NAME doc WIDE size RISE size DOTS size going turn winders

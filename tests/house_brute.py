@@ -47,9 +47,12 @@ class Form:
         self.across = chance.choice((["gap", "hatch"], ["open", "hatch"], ["gap", "wall"], ["hatch"]))
         self.front, self.back = chance.choice((["sash"], ["slot"])), chance.choice((["shutter"], ["slot", "wall"]))
         self.near = chance.choice((0, 4, 40, 90))  # how far hatches between trays are from the front; 0: they are in the middle
+        self.outdoor = chance.random() < 0.5  # seats are in the open
+        self.shallow = self.deep - chance.choice((24, 36)) if self.outdoor else 0  # a body of which seats beside it stand at the left or right
+        self.porch = chance.choice(([], ["gap", "wall"], ["shutter"])) if self.outdoor else []  # between a bed and a seat
         self.text = f'''schema hut {{
   width role length = {" | ".join(f'{w}"' for w in self.widths)}
-  zone body role band = room({self.deep}")
+  zone body role band = room({self.deep}"){f' | cut({self.shallow}")' if self.shallow else ""}
   zone wing role band = empty role absent | porch({self.wing}")
 }}
 form huts of hut {{
@@ -62,10 +65,11 @@ form huts of hut {{
   function living at cell(body, ground)
   function bed at cell(body)
   function well at cell(body, {self.widths[0]}")
-  function seat at cell(wing)
+  function seat{" outdoor" if self.outdoor else ""} at cell(wing)
 {"".join(f'  opening {n} wide {o[0]}" high {o[1]}" sill {o[2]}" {o[3]}{self.begins(n)}{chr(10)}' for n, o in OPENINGS.items())}
   flight steps wide 30" rise 5"..{self.rise}" going {self.going}"{self.turn}
   face cell(well) under cell(well) = steps | floor
+  {f'face cell(bed) beside cell(seat) = {" | ".join(self.porch)}' if self.porch else ""}
   face cell(seat) beside cell(any) = hatch | wall
   face cell(bed) beside cell(bed) = wall
   face cell(living) beside cell(living) = open
@@ -161,16 +165,43 @@ def functions_of(form, cell):
     return (["living"] if cell.storey == 0 else []) + ["bed"] + (["well"] if cell.x[1] - cell.x[0] == form.widths[0] else [])
 
 
+def outside(form, storey, side, long, in_y=False):
+    if side in ("left", "right"):
+        return ["wall"]
+    lines = [form.front] if side == "front" else [form.back, ["sash"]] if storey == 0 else [["sash"]]
+    fitting = ([k for k in kinds if form.fits(k, storey, long, in_y)] for kinds in lines)
+    return next(filter(None, fitting), ["wall"])
+
+
+def beside_porch(form, cells, functions, face):
+    """What may be beside a seat in the open: what is said of both, then what is said of the outside of the other cell."""
+    first, other, long = face
+    in_y = cells[first].tray != cells[other].tray
+    fitting = [k for k in form.porch if form.fits(k, 0, long, in_y)] if {functions[first], functions[other]} == {"bed", "seat"} else []
+    inner = sheltered(form, functions, face)
+    if fitting or inner is None:
+        return fitting or ["open"]
+    side = "left" if in_y and inner == other else "right" if in_y else "front"
+    return outside(form, 0, side, long, in_y)
+
+
+def sheltered(form, functions, face):
+    """The cell that is not in the open, of a face whose other side is; None: there is none."""
+    first, other, _ = face
+    if isinstance(other, str):
+        return first
+    open_ones = [form.outdoor and functions[i] == "seat" for i in (first, other)]
+    return other if open_ones == [True, False] else first if open_ones == [False, True] else None
+
+
 def kinds_of(form, cells, functions, face):
     first, other, long = face
     a, f = cells[first], functions[first]
-    if other in ("left", "right"):
-        return ["wall"]
     if isinstance(other, str):
-        lines = [form.front] if other == "front" else [form.back, ["sash"]] if a.storey == 0 else [["sash"]]
-        fitting = ([k for k in kinds if form.fits(k, a.storey, long)] for kinds in lines)
-        return next(filter(None, fitting), ["wall"])
+        return outside(form, a.storey, other, long)
     g = functions[other]
+    if form.outdoor and "seat" in (f, g) and cells[other].storey == a.storey:
+        return beside_porch(form, cells, functions, face)
     if cells[other].storey > a.storey:
         if f == g == "well":
             return (["steps"] if form.steps_fit(a.storey, a.x[1] - a.x[0], a.y[1] - a.y[0]) else []) + ["floor"]
@@ -197,7 +228,7 @@ def is_dim(form, cells, functions, faces, kinds):
             room = [room[first] if r == room[other] else r for r in room]
     for r in set(room):
         inside = [i for i in range(len(cells)) if room[i] == r]
-        light = sum(glazed(kind) for (first, other, _), kind in zip(faces, kinds) if first in inside and isinstance(other, str))
+        light = sum(glazed(kind) for face, kind in zip(faces, kinds) if sheltered(form, functions, face) in inside)
         if functions[inside[0]] in ("living", "bed") and light * form.daylight < sum(cells[i].area for i in inside):
             return True
     return False

@@ -21,7 +21,7 @@ from fractions import Fraction as F
 import house_prisms
 
 # The attributes of each entity, inherited ones first: S text, E enumeration, R real, I integer, N instance, A list of instances, V list of
-# numbers, L list of such lists, D derived (*). Small letters: it may be left out ($).
+# numbers, L list of such lists, D derived (*), B a value that is true or false. Small letters: it may be left out ($).
 ROOT, PRODUCT = "Snss", "Snsssnn"
 ELEMENT, SPATIAL = PRODUCT + "s", PRODUCT + "se"
 TYPES = {
@@ -30,7 +30,7 @@ TYPES = {
     "IFCELEMENTQUANTITY": ROOT + "sA", "IFCEXTRUDEDAREASOLID": "NnNR", "IFCFURNITURE": ELEMENT + "e",
     "IFCGEOMETRICREPRESENTATIONCONTEXT": "ssIrNn", "IFCGEOMETRICREPRESENTATIONSUBCONTEXT": "ssDDDDNrEs", "IFCLOCALPLACEMENT": "nN",
     "IFCINDEXEDPOLYGONALFACE": "V", "IFCMATERIAL": "Sss", "IFCMATERIALLAYER": "nResssi", "IFCMATERIALLAYERSET": "Ass",
-    "IFCMATERIALLAYERSETUSAGE": "NEERr", "IFCOPENINGELEMENT": ELEMENT + "e", "IFCPOLYGONALFACESET": "NEAv", "IFCPRODUCTDEFINITIONSHAPE": "ssA", "IFCPROJECT": ROOT + "sssan",
+    "IFCMATERIALLAYERSETUSAGE": "NEERr", "IFCOPENINGELEMENT": ELEMENT + "e", "IFCPOLYGONALFACESET": "NEAv", "IFCPROPERTYSET": ROOT + "A", "IFCPROPERTYSINGLEVALUE": "SsBn", "IFCPRODUCTDEFINITIONSHAPE": "ssA", "IFCPROJECT": ROOT + "sssan",
     "IFCQUANTITYAREA": "SsnRs", "IFCQUANTITYVOLUME": "SsnRs", "IFCRAILING": ELEMENT + "e", "IFCRECTANGLEPROFILEDEF": "EsnRR", "IFCRELAGGREGATES": ROOT + "NA",
     "IFCRELASSOCIATESMATERIAL": ROOT + "AN", "IFCRELCONTAINEDINSPATIALSTRUCTURE": ROOT + "AN", "IFCRELDEFINESBYPROPERTIES": ROOT + "AN",
     "IFCRELFILLSELEMENT": ROOT + "NN", "IFCRELSPACEBOUNDARY": ROOT + "NNnEE", "IFCRELVOIDSELEMENT": ROOT + "NN", "IFCROOF": ELEMENT + "e",
@@ -41,13 +41,13 @@ NUMBER = r"-?\d+(\.\d*(E[+-]?\d+)?)?"
 WRITTEN = {
     "S": r"'([ -&(-\[\]-~]|''|\\\\|\\X2\\([0-9A-F]{4})+\\X0\\|\\X4\\([0-9A-F]{8})+\\X0\\)*'",
     "E": r"\.[A-Z0-9_]+\.", "R": r"-?\d+\.\d*(E[+-]?\d+)?", "I": r"-?\d+", "N": r"#\d+", "A": r"\(#\d+(,#\d+)*\)",
-    "V": rf"\({NUMBER}(,{NUMBER})*\)", "L": rf"\(\({NUMBER}(,{NUMBER})*\)(,\({NUMBER}(,{NUMBER})*\))*\)", "D": r"\*",
+    "B": r"IFCBOOLEAN\(\.[TF]\.\)", "V": rf"\({NUMBER}(,{NUMBER})*\)", "L": rf"\(\({NUMBER}(,{NUMBER})*\)(,\({NUMBER}(,{NUMBER})*\))*\)", "D": r"\*",
 }
 # (entity, attribute) -> the values of its enumeration that houses have
 VALUES = {
     ("IFCWALL", 8): "SOLIDWALL PARTITIONING", ("IFCSLAB", 8): "FLOOR BASESLAB ROOF", ("IFCRAILING", 8): "GUARDRAIL", ("IFCDOOR", 10): "DOOR", ("IFCWINDOW", 10): "WINDOW",
     ("IFCROOF", 8): "FLAT_ROOF SHED_ROOF GABLE_ROOF BARREL_ROOF HIP_ROOF NOTDEFINED",
-    ("IFCMATERIALLAYERSETUSAGE", 1): "AXIS2 AXIS3", ("IFCMATERIALLAYERSETUSAGE", 2): "POSITIVE NEGATIVE", ("IFCRELSPACEBOUNDARY", 7): "PHYSICAL", ("IFCRELSPACEBOUNDARY", 8): "INTERNAL EXTERNAL", ("IFCSPACE", 8): "ELEMENT",
+    ("IFCMATERIALLAYERSETUSAGE", 1): "AXIS2 AXIS3", ("IFCMATERIALLAYERSETUSAGE", 2): "POSITIVE NEGATIVE", ("IFCRELSPACEBOUNDARY", 7): "PHYSICAL", ("IFCRELSPACEBOUNDARY", 8): "INTERNAL EXTERNAL", ("IFCSPACE", 8): "ELEMENT", ("IFCSPACE", 9): "INTERNAL EXTERNAL",
 }
 ELEMENTS = "IFCWALL IFCCOLUMN IFCSLAB IFCROOF IFCSTAIR IFCRAILING IFCFURNITURE IFCDOOR IFCWINDOW".split()
 PRODUCTS = ELEMENTS + ["IFCOPENINGELEMENT", "IFCSPACE", "IFCSITE", "IFCBUILDING", "IFCBUILDINGSTOREY"]
@@ -65,7 +65,7 @@ REFERENCES = {
     ("IFCRELAGGREGATES", 4): ["IFCPROJECT", "IFCSITE", "IFCBUILDING", "IFCBUILDINGSTOREY", "IFCROOF"],
     ("IFCRELAGGREGATES", 5): ["IFCSITE", "IFCBUILDING", "IFCBUILDINGSTOREY", "IFCSPACE", "IFCSLAB"],
     ("IFCRELSPACEBOUNDARY", 4): ["IFCSPACE"], ("IFCRELSPACEBOUNDARY", 5): ["IFCWALL"],
-    ("IFCRELDEFINESBYPROPERTIES", 5): ["IFCELEMENTQUANTITY"], ("IFCRELASSOCIATESMATERIAL", 5): ["IFCMATERIAL", "IFCMATERIALLAYERSET", "IFCMATERIALLAYERSETUSAGE"],
+    ("IFCRELDEFINESBYPROPERTIES", 5): ["IFCELEMENTQUANTITY", "IFCPROPERTYSET"], ("IFCPROPERTYSET", 4): ["IFCPROPERTYSINGLEVALUE"], ("IFCRELASSOCIATESMATERIAL", 5): ["IFCMATERIAL", "IFCMATERIALLAYERSET", "IFCMATERIALLAYERSETUSAGE"],
     ("IFCPROJECT", 8): ["IFCUNITASSIGNMENT"],
     **{(p, 5): ["IFCLOCALPLACEMENT"] for p in PRODUCTS}, **{(p, 6): ["IFCPRODUCTDEFINITIONSHAPE"] for p in PRODUCTS},
 }
@@ -140,7 +140,7 @@ def check_ifc(made):
                 check(f"#{number} refers to #{to}", to in made)
                 wanted = REFERENCES.get((name, i))
                 check(f"#{number}={name}: {made[to][0]} as attribute {i}", wanted is None or made[to][0] in wanted)
-        if name.startswith("IFCREL") or name in PRODUCTS or name in ("IFCPROJECT", "IFCELEMENTQUANTITY"):
+        if name.startswith("IFCREL") or name in PRODUCTS or name in ("IFCPROJECT", "IFCELEMENTQUANTITY", "IFCPROPERTYSET"):
             check(f"#{number}: an identifier", re.fullmatch(r"'[0-3][0-9A-Za-z_$]{21}'", args[0]))
             ids[args[0]] += 1
     check("identifiers are unique", all(n == 1 for n in ids.values()))
@@ -217,6 +217,14 @@ def compare(made, house):
     over = sum(volume_of(made, n) for n in named_as("IFCSLAB", "roof"))
     solid = sum(volume_of(made, n) for n in of("IFCWALL")) - below - sum(volume_of(made, n) for n in of("IFCOPENINGELEMENT"))
     check("walls less openings", solid == sum(box(s) for s in house["solids"] if s["kind"] in ("outside", "party", "partition")))
+    for entity, set_name in (("IFCWALL", "Pset_WallCommon"), ("IFCDOOR", "Pset_DoorCommon"), ("IFCWINDOW", "Pset_WindowCommon")):
+        said = {to: made[references(made[references(args[5])[0]][1][4])[0]][1][2][-4:-2] == ".T" for name, args in made.values() if name == "IFCRELDEFINESBYPROPERTIES"
+                and made[references(args[5])[0]][0] == "IFCPROPERTYSET" and spelt(made[references(args[5])[0]][1][2]) == set_name for to in references(args[4])}
+        asked = [n for n in of(entity) if entity != "IFCWALL" or spelt(made[n][1][2]) in ("outside", "party", "partition")]  # not gables
+        check(f"of each {entity} is said whether it is external", sorted(said) == sorted(asked))
+        if entity == "IFCWALL":
+            outer = {n for n in of(entity) if spelt(made[n][1][2]) == "outside"}
+            check("walls that are external", {n for n in said if said[n]} == outer and len(outer) == len([w for w in walls if w[0] == "outside"]))
     rest = sum(volume_of(made, n) for name in ("IFCCOLUMN", "IFCSLAB", "IFCFURNITURE", "IFCSTAIR", "IFCRAILING") for n in of(name)) - over
     winding = F(sum(map(house_prisms.volume_of, wedges))) / 10**18
     check("other boxes", rest == winding + sum(box(s) for s in house["solids"] if s["kind"] not in ("outside", "party", "partition")))

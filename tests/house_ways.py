@@ -61,6 +61,9 @@ class Form:
             self.lines = [(b, kind, a, k) if kind == "beside" else (a, kind, b, k) for a, kind, b, k in self.lines]
         self.front = r.choice((["pane"], ["door"], ["door", "wall"], ["open"]))
         self.many = r.random() < 0.3
+        self.porch = bool(self.wing) and r.random() < 0.4  # a wing may be a terrace, which is in the open
+        if self.porch:
+            self.lines.insert(0, ("hall", "beside", "terrace", r.choice(between)))
 
     def text(self, ways):
         r = random.Random(repr(self.widths) + self.flight)
@@ -78,6 +81,8 @@ class Form:
         first = 's0' if self.storeys > 1 else 'body'
         lines += ["  function hall at cell(body) or cell(wing)" if not self.many else f"  function hall at cell(body, {first}) or cell(wing)",
                   f"  function room at cell(body, {inches(self.widths[0])})", "  function bath at cell(body, s0)" if self.storeys == 1 else "  function bath at cell(wing)"]
+        if self.porch:
+            lines.append("  function terrace outdoor at cell(wing)")
         if self.storeys > 1:
             lines.append(f"  function stair at cell(body, {inches(self.widths[1])})")
         for name, (wide, near, words) in self.openings.items():
@@ -114,14 +119,17 @@ class Form:
         if face["rel"] == "outside":
             return face["a"]
         a, b = functions[face["a"]], functions[face["b"]]
+        open_ones = [f == "terrace" for f in (a, b)]
         side_by_side = face["side"] in ("left", "right")
         for first, kind, second, kinds in self.lines:
             meets = lambda one, other: (first == "any" or one in first.split(" or ")) and (second == "any" or other in second.split(" or "))
+            if any(open_ones) and "any" in (first, second):
+                continue
             if kind == "along" and not side_by_side or not (meets(a, b) or kind == "beside" and meets(b, a)):
                 continue
             if any(self.has_room(k, face) for k in kinds):
                 return face["a"] if meets(a, b) else face["b"]
-        return face["a"]
+        return face["b"] if open_ones == [True, False] else face["a"]  # beside a terrace an outside line decides: inwards
 
     def has_room(self, kind, face):
         if kind not in self.openings:

@@ -19,7 +19,7 @@ static void add_to(uint64_t *set, uint32_t number)
 
 /* ---- classes of cells */
 
-static tn_status add_class(tn_survey *s, const tn_cell *cell, tn_error *error)
+static tn_status add_class(tn_survey *s, const tn_cell *cell, bool outdoor, tn_error *error)
 {
     if (!tn_array_reserve_from(&s->classes, &s->class_room, 64, s->class_count, 1, sizeof *s->classes))
         return tn_fail_memory(error);
@@ -28,7 +28,7 @@ static tn_status add_class(tn_survey *s, const tn_cell *cell, tn_error *error)
     uint64_t *met = calloc(s->met_words + s->words, sizeof *met);
     if (!met)
         return tn_fail_memory(error);
-    *class = (tn_cell_class){cell->zone, cell->storey, cell->open, wide, deep, met, met + s->met_words};
+    *class = (tn_cell_class){cell->zone, cell->storey, cell->open, outdoor, wide, deep, met, met + s->met_words};
     for (uint32_t i = 0; i < s->form.record->face_count; i++) {
         const tn_face_line_record *line = &s->form.module->FACE_LINE_records[s->form.record->face_first + i];
         uint64_t first = decides(s, line->first, cell);
@@ -39,7 +39,7 @@ static tn_status add_class(tn_survey *s, const tn_cell *cell, tn_error *error)
     for (; at < s->class_count; at++) {
         tn_cell_class *other = &s->classes[at];
         if (other->zone == class->zone && other->storey == class->storey && other->open == class->open &&
-            memcmp(other->met, met, s->met_words * sizeof *met) == 0)
+            other->outdoor == class->outdoor && memcmp(other->met, met, s->met_words * sizeof *met) == 0)
             break;
     }
     tn_cell_class *into = &s->classes[at];
@@ -150,16 +150,23 @@ static tn_status see_function(tn_survey *s, tn_cell *cell, uint32_t function, tn
     add_to(s->may, function);
     s->functions[function] = true;
     cell->function = function;
-    tn_status status = add_class(s, cell, error);
+    tn_status status = add_class(s, cell, tn_form_is_outdoor(&s->form, function), error);
     cell->function = TN_NO_FUNCTION;
     return status;
+}
+
+/* A void is in the open if the cell below is, which may be or not. */
+static tn_status see_void(tn_survey *s, const tn_cell *cell, tn_error *error)
+{
+    tn_status status = add_class(s, cell, false, error);
+    return status == TN_OK && s->form.has_outdoor ? add_class(s, cell, true, error) : status;
 }
 
 /* A cell with each function that it may have. `surely`: is it there in every section? */
 static tn_status see_cell(tn_survey *s, tn_cell *cell, bool surely, tn_error *error)
 {
     bool any = false;
-    tn_status status = cell->open ? add_class(s, cell, error) : TN_OK;
+    tn_status status = cell->open ? see_void(s, cell, error) : TN_OK;
     memset(s->may, 0, s->words * sizeof *s->may);
     for (uint32_t f = 0; status == TN_OK && f < tn_form_functions(&s->form); f++) {
         if (!tn_cell_may(&s->house, cell, f))
@@ -236,9 +243,10 @@ static tn_status make_room(tn_survey *s, tn_error *error)
     s->voids = calloc((size_t)form->rule_count + 1, sizeof *s->voids);
     s->bare_functions = calloc(s->words, sizeof *s->bare_functions);
     s->may = calloc(s->words, sizeof *s->may);
+    s->shelters = calloc(s->words, sizeof *s->shelters);
     s->uses = calloc(kinds, sizeof *s->uses);
     s->first_places = malloc((stacks + 1) * sizeof *s->first_places);
-    if (!s->functions || !s->voids || !s->bare_functions || !s->may || !s->uses || !s->first_places)
+    if (!s->functions || !s->voids || !s->bare_functions || !s->may || !s->shelters || !s->uses || !s->first_places)
         return tn_fail_memory(error);
     for (size_t i = 0; i < stacks; i++)
         s->first_places[i] = TN_NO_PLACE;
@@ -305,6 +313,7 @@ void tn_survey_free(tn_survey *s)
     free(s->voids);
     free(s->bare_functions);
     free(s->may);
+    free(s->shelters);
     free(s->uses);
     free(s->with);
     tn_schema_free(s->schema);

@@ -26,7 +26,7 @@ typedef struct tn_survey_place {
 /* Cells that no line of faces tells apart. met: a bit for each line's first cells, and one for its second ones. */
 typedef struct tn_cell_class {
     uint32_t zone, storey;
-    bool open;
+    bool open, outdoor; /* outdoor: in the open */
     int64_t wide, deep; /* the most that one of them has */
     uint64_t *met, *functions;
 } tn_cell_class;
@@ -72,6 +72,7 @@ typedef struct tn_survey {
     size_t place_count, place_room;
     size_t *first_places;     /* [zone field][storey] */
     uint64_t *may;            /* of the cell at hand */
+    uint64_t *shelters;       /* of those in the open: a cell with it may stand beside one that is not */
     bool *functions;          /* [function] a cell may have it */
     uint8_t *voids;           /* [rule] which cells a void meets: TN_VOID_... */
     uint64_t *bare_functions; /* those without tiles */

@@ -36,7 +36,8 @@ static bool always_fits(const tn_survey *s, const tn_face_line_record *record)
  * have. */
 typedef struct line_use {
     bool applies, reached;
-    uint32_t item_first;             /* of its kinds */
+    bool unnamed;        /* it has `cell(any)`, and a face beside a cell in the open is between such cells */
+    uint32_t item_first; /* of its kinds */
     uint32_t hidden_by, hidden_kind; /* kind: TN_NO_RECORD where it takes all */
 } line_use;
 
@@ -56,9 +57,10 @@ typedef struct asking {
     tn_survey *survey;
     line_use *lines;
     kind_use *kinds;
-    line_kind *items; /* [kind of a line], those of one line after those of the line before */
-    size_t meeting;   /* from 1 */
-    int64_t passes;   /* through what people pass in the meeting, the widest; 0: nothing */
+    line_kind *items;            /* [kind of a line], those of one line after those of the line before */
+    size_t meeting;              /* from 1 */
+    const tn_survey_meeting *of; /* the same */
+    int64_t passes;              /* through what people pass in the meeting, the widest; 0: nothing */
     tn_status status;
     tn_error *error;
 } asking;
@@ -116,7 +118,7 @@ static void ask_kinds(asking *a, const tn_survey_meeting *m, uint32_t line)
         if (!tn_survey_may_fit(s, m, kind))
             continue;
         note_use(s, m, &s->uses[kind]);
-        int64_t passes = tn_survey_passes(s, m, kind);
+        int64_t passes = tn_survey_passes(s, a->of, kind);
         a->passes = passes > a->passes ? passes : a->passes;
         a->lines[line].reached |= !had;
         if (had) {
@@ -126,27 +128,68 @@ static void ask_kinds(asking *a, const tn_survey_meeting *m, uint32_t line)
     }
 }
 
-static void ask(asking *a, const tn_survey_meeting *m)
+/* Asks the lines about the meeting; beside a cell in the open those that name both cells. *taken: the first that takes
+ * all such faces, or TN_NO_RECORD. */
+static void ask_lines(asking *a, const tn_survey_meeting *m, bool open, uint32_t *taken)
 {
     const tn_survey *s = a->survey;
-    uint32_t taken = TN_NO_RECORD;
-    a->meeting++;
-    a->passes = 0;
     for (uint32_t i = 0; i < s->form.record->face_count; i++) {
         const tn_face_line_record *record = &s->form.module->FACE_LINE_records[s->form.record->face_first + i];
         if (!is_about(record, i, m))
             continue;
+        if (open && !tn_form_names_both(&s->form, record)) {
+            a->lines[i].unnamed = true;
+            continue;
+        }
         a->lines[i].applies = true;
         ask_sizes(a, m, i);
-        if (taken != TN_NO_RECORD) {
-            a->lines[i].hidden_by = taken;
+        if (*taken != TN_NO_RECORD) {
+            a->lines[i].hidden_by = *taken;
             a->lines[i].hidden_kind = TN_NO_RECORD;
             continue;
         }
         ask_kinds(a, m, i);
         if (always_fits(s, record))
-            taken = i;
+            *taken = i;
     }
+}
+
+/* The side of the cell that is not in the open, which meets one that is. */
+static tn_house_side sheltered_side(const tn_survey_meeting *m, const tn_cell_class *sheltered)
+{
+    const tn_cell_class *other = sheltered == m->a ? m->b : m->a;
+    if (m->relation == TN_FACE_ALONG)
+        return sheltered == m->a ? TN_HOUSE_RIGHT : TN_HOUSE_LEFT;
+    return sheltered->zone < other->zone ? TN_HOUSE_FRONT : TN_HOUSE_BACK;
+}
+
+/* Beside a cell in the open, lines that name both cells come first, then those outside of the other cell; between two
+ * such cells is nothing without a line. */
+static void ask_beside(asking *a, const tn_survey_meeting *m, uint32_t *taken)
+{
+    const tn_survey *s = a->survey;
+    const tn_cell_class *sheltered = m->a->outdoor ? m->b : m->a, *other = m->a->outdoor ? m->a : m->b;
+    ask_lines(a, m, true, taken);
+    if (sheltered->outdoor) {
+        a->passes = *taken == TN_NO_RECORD ? INT64_MAX : a->passes;
+        return;
+    }
+    const tn_survey_meeting outside = {sheltered, NULL, TN_FACE_OUTSIDE, sheltered_side(m, sheltered)};
+    add_all(s->shelters, other->functions, s->words);
+    ask_lines(a, &outside, false, taken);
+}
+
+/* A cell in the open in the lowest storey is outside already. */
+static void ask(asking *a, const tn_survey_meeting *m)
+{
+    uint32_t taken = TN_NO_RECORD;
+    a->meeting++;
+    a->passes = m->relation == TN_FACE_OUTSIDE && m->a->outdoor && m->a->storey == 0 ? INT64_MAX : 0;
+    a->of = m;
+    if (m->b && m->relation != TN_FACE_UNDER && (m->a->outdoor || m->b->outdoor))
+        ask_beside(a, m, &taken);
+    else
+        ask_lines(a, m, false, &taken);
     if (a->passes > 0 && a->status == TN_OK)
         a->status = tn_survey_link(a->survey, m, a->passes, a->error);
 }
@@ -203,10 +246,15 @@ static void warn_idle(const asking *a, uint32_t line)
     const tn_face_line_record *record = &s->form.module->FACE_LINE_records[s->form.record->face_first + line];
     bool hidden = use->hidden_by != TN_NO_RECORD && fits_somewhere(a, line, record->kind_count);
     tn_diagnostic *d = tn_report(tn_survey_list(s), W_FACE_LINE_IDLE, TN_SURVEY_SPAN(record),
-                                 !use->applies ? "no face is between such cells"
-                                 : hidden      ? "this line decides no face: others before it do"
-                                               : "this line decides no face: none of its kinds fits");
-    if (!use->applies)
+                                 !use->applies && use->unnamed ? "a line with `cell(any)` decides no such face"
+                                 : !use->applies               ? "no face is between such cells"
+                                 : hidden                      ? "this line decides no face: others before it do"
+                                                               : "this line decides no face: none of its kinds fits");
+    if (!use->applies && use->unnamed)
+        tn_help(tn_survey_list(s), d,
+                "beside a cell in the open, lines count that name both cells, then those `outside` of the other cell: "
+                "write what the cells are, not `cell(any)`");
+    else if (!use->applies)
         tn_help(tn_survey_list(s), d, "check the storey, the zone and the function that it names");
     else if (hidden)
         warn_hidden(s, d, use);

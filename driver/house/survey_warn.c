@@ -21,6 +21,55 @@ static void warn_functions(const tn_survey *s)
     }
 }
 
+/* Functions whose cells are in the open, but stand beside none that is not: no wall of the house is outside there. */
+static void warn_outdoor(const tn_survey *s)
+{
+    for (uint32_t f = 0; s->met && f < tn_form_functions(&s->form); f++) {
+        const tn_cell_rule_record *rule = tn_form_rule(&s->form, f);
+        const char *name = tn_text(s->form.module, rule->name);
+        if (!tn_form_is_outdoor(&s->form, f) || !s->functions[f] || tn_survey_has(s->shelters, f) ||
+            tn_survey_allows(s, W_OUTDOOR_ALONE, TN_SURVEY_SPAN(rule)))
+            continue;
+        tn_diagnostic *d = tn_report(tn_survey_list(s), W_OUTDOOR_ALONE, TN_SURVEY_SPAN(rule),
+                                     "`%s` is outdoor, but no cell that is indoors stands beside it", name);
+        tn_help(
+            tn_survey_list(s), d,
+            "walls between outdoor cells and others are outside walls: write `function %s at` without `outdoor`, or "
+            "let a cell of its storey have a function that is not outdoor",
+            name);
+    }
+}
+
+/* Does a line outside that says what its cells are leave those of the function open? */
+static bool is_left_open(const tn_survey *s, uint32_t function)
+{
+    const tn_module *module = s->form.module;
+    bool open = false;
+    for (uint32_t i = 0; !open && i < s->form.record->face_count; i++) {
+        const tn_face_line_record *line = &module->FACE_LINE_records[s->form.record->face_first + i];
+        for (uint32_t k = 0; line->relation == TN_FACE_OUTSIDE && k < line->kind_count; k++)
+            if (module->HOUSE_ITEM_records[line->kind_first + k].number == TN_FACE_OPEN)
+                open |= tn_form_line_names(&s->form, line, function);
+    }
+    return open;
+}
+
+/* Functions of porches whose walls to the rooms are walls between rooms. */
+static void warn_open(const tn_survey *s)
+{
+    for (uint32_t f = 0; f < tn_form_functions(&s->form); f++) {
+        const tn_cell_rule_record *rule = tn_form_rule(&s->form, f);
+        const char *name = tn_text(s->form.module, rule->name);
+        if (tn_form_is_outdoor(&s->form, f) || !is_left_open(s, f) ||
+            tn_survey_allows(s, W_NOT_OUTDOOR, TN_SURVEY_SPAN(rule)))
+            continue;
+        tn_diagnostic *d = tn_report(
+            tn_survey_list(s), W_NOT_OUTDOOR, TN_SURVEY_SPAN(rule),
+            "a cell of `%s` may be open to the outside, but its walls to rooms are walls between rooms", name);
+        tn_help(tn_survey_list(s), d, "write `function %s outdoor at`: then they are outside walls", name);
+    }
+}
+
 /* Those that meet cells of the lowest storey alone; what meets no cell at all is said elsewhere. */
 static void warn_voids(const tn_survey *s)
 {
@@ -143,6 +192,8 @@ static tn_status warn(tn_survey *s, tn_error *error)
 {
     warn_functions(s);
     warn_voids(s);
+    warn_outdoor(s);
+    warn_open(s);
     tn_survey_stairs(s);
     for (uint32_t i = 0; i < s->form.record->opening_count; i++)
         warn_opening(s, i);

@@ -14,9 +14,10 @@ enum {
     STEPS_MAX = 1000000, /* tiles that are tried */
 };
 
-/* What may be in a wall; if the form asks for ways, with what is beyond it then. */
+/* What may be in a wall, with a function of the cell beyond it, since that decides how thick the wall is; if the form
+ * asks for ways, with what is beyond it then. */
 typedef struct tn_wall_choice {
-    uint32_t kind;
+    uint32_t kind, beyond;
     tn_face_view view;
 } tn_wall_choice;
 
@@ -33,16 +34,28 @@ typedef struct tn_walls {
 
 /* ---- walls */
 
+static uint32_t beyond(const tn_walls *w, uint32_t number)
+{
+    const tn_face *face = &w->house->faces[number];
+    return face->first == w->cell ? face->second : face->first;
+}
+
+static bool is_outdoor(const tn_walls *w, uint32_t function)
+{
+    return function != TN_NO_FUNCTION && tn_form_is_outdoor(w->house->form, function);
+}
+
 static void add_choice(tn_walls *w, uint32_t number, uint32_t kind)
 {
-    tn_face *face = &w->house->faces[number];
-    tn_wall_choice choice = {.kind = kind}, *known = w->choices[w->count];
-    face->kind = kind;
+    uint32_t other = beyond(w, number),
+             function = other == TN_NO_CELL ? TN_NO_FUNCTION : w->house->cells[other].function;
+    tn_wall_choice choice = {.kind = kind, .beyond = function}, *known = w->choices[w->count];
+    w->house->faces[number].kind = kind;
     if (!w->house->ways_unknown)
         choice.view = tn_face_seen(w->house, number, w->cell);
     for (uint32_t i = 0; i < w->choice_count[w->count]; i++)
         if (known[i].kind == kind && known[i].view.beyond == choice.view.beyond &&
-            known[i].view.leaf == choice.view.leaf)
+            known[i].view.leaf == choice.view.leaf && is_outdoor(w, known[i].beyond) == is_outdoor(w, function))
             return;
     w->too_many |= w->choice_count[w->count] == CHOICES_MAX;
     if (!w->too_many)
@@ -59,7 +72,10 @@ static void add_kinds(tn_walls *w, uint32_t number)
 
 static void take(tn_walls *w, uint32_t wall, uint32_t choice)
 {
+    uint32_t other = beyond(w, w->faces[wall]);
     w->at[wall] = choice;
+    if (other != TN_NO_CELL)
+        w->house->cells[other].function = w->choices[wall][choice].beyond;
     w->house->faces[w->faces[wall]].kind = w->choices[wall][choice].kind;
     w->views[w->faces[wall]] = w->choices[wall][choice].view;
 }
@@ -67,8 +83,7 @@ static void take(tn_walls *w, uint32_t wall, uint32_t choice)
 /* With each function that the cell on the other side may have. */
 static void add_wall(tn_walls *w, uint32_t number)
 {
-    tn_face *face = &w->house->faces[number];
-    uint32_t other = face->first == w->cell ? face->second : face->first, before = TN_NO_FUNCTION;
+    uint32_t other = beyond(w, number), before = TN_NO_FUNCTION;
     w->too_many |= w->count == WALLS_MAX;
     if (w->too_many)
         return;
@@ -91,12 +106,12 @@ static void add_wall(tn_walls *w, uint32_t number)
 static tn_status gather_walls(tn_house *house, uint32_t cell, tn_walls *w, tn_error *error)
 {
     uint64_t cases = 1;
-    if (!tn_array_reserve(&w->views, &w->view_room, 0, (size_t)house->face_count + 1, sizeof *w->views))
-        return tn_fail_memory(error);
     w->house = house;
     w->cell = cell;
     w->count = 0;
     w->too_many = false;
+    if (!tn_array_reserve(&w->views, &w->view_room, 0, (size_t)house->face_count + 1, sizeof *w->views))
+        return tn_fail_memory(error);
     for (uint32_t i = 0; i < house->face_count; i++)
         if (house->faces[i].relation != TN_FACE_UNDER)
             house->faces[i].kind = TN_FACE_OPEN;
@@ -113,8 +128,12 @@ static tn_status gather_walls(tn_house *house, uint32_t cell, tn_walls *w, tn_er
     return TN_OK;
 }
 
+/* The cells around have no functions again. */
 static void leave_walls(tn_walls *w)
 {
+    for (uint32_t i = 0; i < w->count; i++)
+        if (beyond(w, w->faces[i]) != TN_NO_CELL)
+            w->house->cells[beyond(w, w->faces[i])].function = TN_NO_FUNCTION;
     w->house->views = NULL;
 }
 
@@ -274,8 +293,9 @@ static tn_status each_case(tn_house *house, uint32_t cell, uint32_t function, se
         if (!turn(walls))
             break;
     }
+    if (walls)
+        leave_walls(walls);
     house->cells[cell].function = TN_NO_FUNCTION;
-    house->views = NULL;
     free_walls(walls);
     return status;
 }

@@ -212,6 +212,35 @@ bool tn_cell_may(const tn_house *house, const tn_cell *cell, uint32_t function)
     return !cell->open && tn_house_decide(house, tn_form_rule(house->form, function)->decides, cell);
 }
 
+/* ---- cells in the open */
+
+bool tn_cell_is_outdoor(const tn_house *house, uint32_t cell)
+{
+    if (!house->form->has_outdoor)
+        return false;
+    while (cell > 0 && house->cells[cell].open) /* the cell below comes before */
+        cell--;
+    uint32_t function = house->cells[cell].function;
+    return function != TN_NO_FUNCTION && tn_form_is_outdoor(house->form, function);
+}
+
+bool tn_face_is_outer(const tn_house *house, const tn_face *face)
+{
+    return face->relation == TN_FACE_OUTSIDE ||
+           (face->relation == TN_FACE_BESIDE &&
+            (tn_cell_is_outdoor(house, face->first) || tn_cell_is_outdoor(house, face->second)));
+}
+
+uint32_t tn_face_sheltered(const tn_house *house, const tn_face *face)
+{
+    if (face->relation == TN_FACE_OUTSIDE)
+        return face->first;
+    if (face->relation == TN_FACE_UNDER)
+        return TN_NO_CELL;
+    bool first = tn_cell_is_outdoor(house, face->first), second = tn_cell_is_outdoor(house, face->second);
+    return first == second ? TN_NO_CELL : first ? face->second : face->first;
+}
+
 /* ---- faces */
 
 static int64_t wide_of(const tn_face *face)
@@ -283,6 +312,42 @@ static bool line_is_about(const tn_house *house, const tn_face_line_record *line
     return is_placed(line, face) && has_cells(house, line, face);
 }
 
+/* Is a line outside about the face, which is an outside face of this cell beside one in the open? */
+static bool line_is_outside(const tn_house *house, const tn_face_line_record *line, const tn_face *face, uint32_t cell)
+{
+    return line->relation == TN_FACE_OUTSIDE &&
+           (line->side == TN_HOUSE_ANY_SIDE || line->side == (uint32_t)tn_face_side(face, cell)) &&
+           tn_house_decide(house, line->first, &house->cells[cell]);
+}
+
+/* The first line from `from` on that is asked of the face; TN_NO_RECORD behind the last. Of a face beside a cell in the
+ * open, those are the lines that name both of its cells; then, if the other is not in the open, those outside of that
+ * one, as numbers from face_count on. */
+static uint32_t next_line(const tn_house *house, const tn_face *face, uint32_t from)
+{
+    const tn_house_form *form = house->form;
+    const tn_face_line_record *lines = &form->module->FACE_LINE_records[form->record->face_first];
+    uint32_t count = form->record->face_count;
+    bool open = face->relation == TN_FACE_BESIDE && tn_face_is_outer(house, face);
+    for (uint32_t i = from; i < count; i++)
+        if (line_is_about(house, &lines[i], face) && (!open || tn_form_names_both(form, &lines[i])))
+            return i;
+    uint32_t cell = open ? tn_face_sheltered(house, face) : TN_NO_CELL;
+    for (uint32_t i = from > count ? from - count : 0; cell != TN_NO_CELL && i < count; i++)
+        if (line_is_outside(house, &lines[i], face, cell))
+            return count + i;
+    return TN_NO_RECORD;
+}
+
+/* What is in a face of which no line says anything. */
+static uint32_t kind_without_line(const tn_house *house, const tn_face *face)
+{
+    if (face->relation == TN_FACE_UNDER)
+        return TN_FACE_FLOOR;
+    bool open = tn_face_is_outer(house, face) && tn_face_sheltered(house, face) == TN_NO_CELL;
+    return open ? TN_FACE_OPEN : TN_FACE_WALL;
+}
+
 /* A void is always open to what is below it. */
 size_t tn_face_decided(const tn_house *house, const tn_face *face, uint32_t kinds[TN_FACE_KINDS_MAX], uint32_t *decides)
 {
@@ -293,10 +358,11 @@ size_t tn_face_decided(const tn_house *house, const tn_face *face, uint32_t kind
         kinds[0] = TN_FACE_OPEN;
         return 1;
     }
-    for (uint32_t i = 0; count == 0 && i < form->record->face_count; i++) {
+    uint32_t lines = form->record->face_count;
+    for (uint32_t at = next_line(house, face, 0); count == 0 && at != TN_NO_RECORD;
+         at = next_line(house, face, at + 1)) {
+        uint32_t i = at < lines ? at : at - lines;
         const tn_face_line_record *line = &form->module->FACE_LINE_records[form->record->face_first + i];
-        if (!line_is_about(house, line, face))
-            continue;
         for (uint32_t k = 0; k < line->kind_count && count < TN_FACE_KINDS_MAX; k++) {
             uint32_t kind = form->module->HOUSE_ITEM_records[line->kind_first + k].number;
             if (fits(house, face, kind))
@@ -306,7 +372,7 @@ size_t tn_face_decided(const tn_house *house, const tn_face *face, uint32_t kind
             *decides = i;
     }
     if (count == 0)
-        kinds[count++] = face->relation == TN_FACE_UNDER ? TN_FACE_FLOOR : TN_FACE_WALL;
+        kinds[count++] = kind_without_line(house, face);
     return count;
 }
 
@@ -322,6 +388,8 @@ uint32_t tn_face_leaf(const tn_house *house, const tn_face *face)
     if (number == TN_NO_RECORD)
         return face->first;
     const tn_face_line_record *line = &house->form->module->FACE_LINE_records[house->form->record->face_first + number];
+    if (line->relation == TN_FACE_OUTSIDE)
+        return tn_face_sheltered(house, face);
     bool as_written = tn_house_decide(house, line->first, &house->cells[face->first]) &&
                       tn_house_decide(house, line->second, &house->cells[face->second]);
     return as_written ? face->first : face->second;
@@ -337,7 +405,7 @@ int64_t tn_face_thickness(const tn_house *house, const tn_face *face)
 {
     if (face->relation == TN_FACE_UNDER || face->kind == TN_FACE_OPEN)
         return 0;
-    bool thick = face->relation == TN_FACE_OUTSIDE || face->kind == TN_FACE_PARTY;
+    bool thick = face->kind == TN_FACE_PARTY || tn_face_is_outer(house, face);
     return thick ? house->form->record->wall : house->form->record->partition;
 }
 

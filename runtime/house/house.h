@@ -143,10 +143,21 @@ size_t tn_face_options(const tn_house *house, const tn_face *face, uint32_t kind
  * fits, counted within the form; TN_NO_RECORD where none does. */
 size_t tn_face_decided(const tn_house *house, const tn_face *face, uint32_t kinds[TN_FACE_KINDS_MAX], uint32_t *line);
 
-/* Is nothing in it, and nothing behind it? Its cell is a gallery then. */
-static inline bool tn_face_is_open_side(const tn_face *face)
+/* Is the cell in the open? A void is if the cell below it is. */
+bool tn_cell_is_outdoor(const tn_house *house, uint32_t cell);
+
+/* Does the weather come to the face: is it outside, or a cell in the open at one side of it? What stands there is an
+ * outside wall. Functions alone decide it. */
+bool tn_face_is_outer(const tn_house *house, const tn_face *face);
+
+/* The cell whose outside wall the face is: of a face between a cell in the open and another one the other; of one
+ * outside its cell. TN_NO_CELL: of none. */
+uint32_t tn_face_sheltered(const tn_house *house, const tn_face *face);
+
+/* Is nothing in it that keeps the weather out? Posts stand at its ends then. */
+static inline bool tn_face_is_open_side(const tn_house *house, const tn_face *face)
 {
-    return face->relation == TN_FACE_OUTSIDE && face->kind == TN_FACE_OPEN;
+    return face->kind == TN_FACE_OPEN && tn_face_is_outer(house, face);
 }
 
 /* The thickness of the wall that stands in a face; 0 where none does. */
@@ -409,8 +420,8 @@ void tn_flights_clear(tn_flights *flights);
  * caller frees *rooms. */
 tn_status tn_house_rooms(const tn_house *house, uint32_t **rooms, tn_error *error);
 
-/* The area of the glazed openings to the outside of a room (its lowest cell), in square nanometres. */
-tn_int128 tn_face_glazing(const tn_house *house, const tn_face *face); /* of one face */
+/* The area of the glazed openings in the outside faces of a room (its lowest cell), in square nanometres. */
+tn_int128 tn_face_glazing(const tn_house *house, const tn_face *face); /* of one face: that of its sheltered cell */
 tn_int128 tn_room_glazing(const tn_house *house, const uint32_t *rooms, uint32_t room);
 
 #endif

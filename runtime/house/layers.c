@@ -4,10 +4,9 @@
 
 tn_solid_kind tn_face_wall(const tn_house *house, const tn_face *face)
 {
-    (void)house;
-    return face->relation == TN_FACE_OUTSIDE ? TN_SOLID_OUTSIDE
-           : face->kind == TN_FACE_PARTY     ? TN_SOLID_PARTY
-                                             : TN_SOLID_PARTITION;
+    return tn_face_is_outer(house, face) ? TN_SOLID_OUTSIDE
+           : face->kind == TN_FACE_PARTY ? TN_SOLID_PARTY
+                                         : TN_SOLID_PARTITION;
 }
 
 static tn_layering layers_of(const tn_house_form *form, tn_layered of)
@@ -17,10 +16,12 @@ static tn_layering layers_of(const tn_house_form *form, tn_layered of)
 }
 
 /* Is the outside, or the first cell, at the low side of the face? */
-static bool begins_low(const tn_face *face)
+static bool begins_low(const tn_house *house, const tn_face *face)
 {
-    bool low = face->side == TN_HOUSE_BACK || face->side == TN_HOUSE_LEFT; /* of the first cell */
-    return low == (face->relation == TN_FACE_OUTSIDE);
+    uint32_t inner = tn_face_is_outer(house, face) ? tn_face_sheltered(house, face) : TN_NO_CELL;
+    tn_house_side side = inner != TN_NO_CELL ? tn_face_side(face, inner) : face->side; /* of that, or the first cell */
+    bool low = side == TN_HOUSE_BACK || side == TN_HOUSE_LEFT;
+    return low == (inner != TN_NO_CELL);
 }
 
 tn_layering tn_face_layering(const tn_house *house, const tn_face *face)
@@ -30,7 +31,7 @@ tn_layering tn_face_layering(const tn_house *house, const tn_face *face)
                                        [TN_SOLID_PARTITION] = TN_LAYERED_PARTITION};
     tn_layering layers = layers_of(house->form, kinds[tn_face_wall(house, face)]);
     layers.axis = face->at.x0 == face->at.x1 ? 0 : 1;
-    layers.from_high = !begins_low(face);
+    layers.from_high = !begins_low(house, face);
     return layers;
 }
 

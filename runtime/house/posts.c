@@ -29,11 +29,11 @@ static void add_end(tn_posts *posts, const tn_post *end)
     last->thick_y = end->thick_y > last->thick_y ? end->thick_y : last->thick_y;
 }
 
-/* At both ends of a side that is open to the outside stands a post, as thick as a wall. */
+/* At both ends of a side that is open to the weather stands a post, as thick as a wall. */
 static tn_post end_of(const tn_house *house, const tn_face *face)
 {
     int64_t thick = tn_face_thickness(house, face), wall = house->form->record->wall;
-    bool in_y = face->at.x0 == face->at.x1, open = tn_face_is_open_side(face);
+    bool in_y = face->at.x0 == face->at.x1, open = tn_face_is_open_side(house, face);
     return (tn_post){face->at.x0, face->at.y0, open ? wall : in_y ? thick : 0, open ? wall : in_y ? 0 : thick};
 }
 

@@ -47,15 +47,17 @@ tn_status tn_house_rooms(const tn_house *house, uint32_t **rooms, tn_error *erro
 tn_int128 tn_face_glazing(const tn_house *house, const tn_face *face)
 {
     const tn_opening_record *opening = tn_form_opening(house->form, face->kind);
-    bool glazed = face->relation == TN_FACE_OUTSIDE && opening && opening->flags & TN_GLAZED;
+    bool glazed = opening && opening->flags & TN_GLAZED && tn_face_sheltered(house, face) != TN_NO_CELL;
     return glazed ? (tn_int128)opening->wide * opening->high : 0;
 }
 
 tn_int128 tn_room_glazing(const tn_house *house, const uint32_t *rooms, uint32_t room)
 {
     tn_int128 glazed = 0;
-    for (size_t i = 0; i < house->face_count; i++)
-        if (rooms[house->faces[i].first] == room)
+    for (size_t i = 0; i < house->face_count; i++) {
+        uint32_t cell = tn_face_sheltered(house, &house->faces[i]);
+        if (cell != TN_NO_CELL && rooms[cell] == room)
             glazed += tn_face_glazing(house, &house->faces[i]);
+    }
     return glazed;
 }

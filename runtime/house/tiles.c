@@ -36,7 +36,7 @@ tn_rectangle tn_cell_clear(const tn_house *house, uint32_t cell)
     int64_t back[TN_HOUSE_SIDE_COUNT] = {0};
     for (size_t i = 0; i < house->face_count; i++) {
         tn_house_side side = tn_face_side(&house->faces[i], cell);
-        bool posts = tn_face_is_open_side(&house->faces[i]); /* the room ends where they do */
+        bool posts = tn_face_is_open_side(house, &house->faces[i]); /* the room ends where they do */
         int64_t half = (posts ? house->form->record->wall : tn_face_thickness(house, &house->faces[i])) / 2;
         if (half > back[side])
             back[side] = half;

@@ -108,6 +108,9 @@ enum { TN_ROOF_OPEN = 1, TN_ROOF_ACROSS = 2 };
 #define TN_GLAZED 2u
 #define TN_LEAFLESS 4u /* nothing stands in it */
 #define TN_SLIDING 8u  /* its leaf slides along the wall */
+
+/* Of a function: */
+#define TN_OUTDOOR 1u /* its cells are in the open */
 #define TN_TILE_KEEP 1u
 #define TN_TILE_X_FROM_RIGHT 2u
 #define TN_TILE_X_TO_RIGHT 4u

@@ -270,7 +270,10 @@ static void put_form(drawn_house *d)
     put(d, "  function living at cell(body, ground)\n");
     put(d, d->places ? "  function bed at cell(any)\n" : "  function bed at cell(body)\n");
     ONE_OF(d, "  function stair at cell(body)\n", "  function stair at cell(body, 8')\n");
-    put(d, "  function seat at cell(bay)\n  opening door wide 2'8\" high 6'8\" clear 2' passage\n"
+    ONE_OF(d, "  function seat at cell(bay)\n", "  function seat at cell(bay)\n",
+           "  function seat outdoor at cell(bay)\n",
+           "  function seat outdoor at cell(bay)\n  face cell(bed) beside cell(seat) = window | door\n");
+    put(d, "  opening door wide 2'8\" high 6'8\" clear 2' passage\n"
            "  opening window wide 3' high 4' sill 2'8\" glazed\n  opening arch wide 4' high 7' passage leafless\n");
     if (d->ways)
         put(d, "  flight dogleg wide 2'6\" rise 6\"..9\" going 9\" turn half\n  way 2'4\"\n  way 2' for bed\n");

@@ -100,6 +100,7 @@ static void emit_rules(tn_emit *emit, tn_checked_form *form)
                                                         .kind = rule->kind,
                                                         .decides = decides,
                                                         .way = i < form->function_count ? form->ways[i].length : 0,
+                                                        .flags = rule->ast->outdoor ? TN_OUTDOOR : 0,
                                                         PLACE(rule->ast->node.span)});
     }
 }

@@ -91,6 +91,7 @@ typedef struct tn_ast_form_clause {
     const tn_ast_word *high;   /* opening; the most that a flight's steps rise */
     const tn_ast_word *low, *going; /* flight: the least that its steps rise, and how deep they are, or NULL */
     const tn_ast_word *winders;     /* flight: how many wedges a turn has, or NULL */
+    bool outdoor;                   /* function */
     tn_face_relation relation;
     tn_ast_expr *first, *second; /* material: where it is used, or NULL */
     tn_ast_list list;  /* section: tn_ast_shape; face: kinds; tile, way: functions; material: parts; allow: codes */

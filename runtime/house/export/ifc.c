@@ -14,6 +14,9 @@
 /* How layers lie in a part that has them: in the direction of its axis, against it, or in no direction that is said. */
 typedef enum tn_layers_lie { LIE_ALONG, LIE_AGAINST, LIE_ANYHOW, LIES } tn_layers_lie;
 
+/* What a set of common properties is about. */
+typedef enum tn_ifc_common { IFC_WALLS, IFC_DOORS, IFC_WINDOWS, IFC_COMMON_COUNT } tn_ifc_common;
+
 typedef struct tn_ifc {
     tn_stepfile step;
     const tn_house *house;
@@ -28,6 +31,7 @@ typedef struct tn_ifc {
         *made;           /* parts of each kind that the form has no material for, then those of each material; owned */
     unsigned *materials; /* as in `made`, then of the form's layers; owned */
     tn_stepfile_list layered[TN_LAYERED_COUNT][LIES]; /* parts that consist of layers; owned */
+    tn_stepfile_list common[IFC_COMMON_COUNT][2];     /* walls, doors, windows: indoors, and in outside faces; owned */
     bool failed;                                      /* out of memory */
 } tn_ifc;
 
@@ -45,6 +49,9 @@ static void ifc_clear(tn_ifc *ifc)
     for (int of = 0; of < TN_LAYERED_COUNT; of++)
         for (int lie = 0; lie < LIES; lie++)
             tn_stepfile_list_clear(&ifc->layered[of][lie]);
+    for (int i = 0; i < IFC_COMMON_COUNT; i++)
+        for (int outer = 0; outer < 2; outer++)
+            tn_stepfile_list_clear(&ifc->common[i][outer]);
 }
 
 /* ---- spaces: rooms with their areas, and the walls that bound them */
@@ -130,9 +137,10 @@ static void put_space(tn_ifc *ifc, uint32_t room, tn_stepfile_list *list)
     const char *text = tn_stepfile_list_text(&solids);
     unsigned shape = faceted ? tn_stepfile_faceted(step, text) : tn_stepfile_shape(step, text);
     const char *function = tn_text(house->form->module, tn_form_rule(house->form, house->cells[room].function)->name);
-    unsigned space = tn_stepfile_add(step, "IFCSPACE('%s',$,'%s',$,$,#%u,#%u,$,.ELEMENT.,.INTERNAL.,$)",
-                                     tn_stepfile_guid(step, "space", room).text, tn_stepfile_text(function).text,
-                                     tn_stepfile_placement(step, ifc->placement, 0, 0, 0), shape);
+    unsigned at = tn_stepfile_placement(step, ifc->placement, 0, 0, 0);
+    unsigned space = tn_stepfile_add(step, "IFCSPACE('%s',$,'%s',$,$,#%u,#%u,$,.ELEMENT.,.%s.,$)",
+                                     tn_stepfile_guid(step, "space", room).text, tn_stepfile_text(function).text, at,
+                                     shape, tn_cell_is_outdoor(house, room) ? "EXTERNAL" : "INTERNAL");
     ifc->spaces[room] = space;
     ifc->failed |= solids.text.failed;
     tn_stepfile_list_clear(&solids);
@@ -159,7 +167,7 @@ static void put_boundaries(tn_ifc *ifc)
             if (space)
                 tn_stepfile_add(&ifc->step, "IFCRELSPACEBOUNDARY('%s',$,$,$,#%u,#%u,$,.PHYSICAL.,.%s.)",
                                 tn_stepfile_guid(&ifc->step, "boundary", (unsigned)(2 * i + k)).text, space,
-                                ifc->walls[i], face->relation == TN_FACE_OUTSIDE ? "EXTERNAL" : "INTERNAL");
+                                ifc->walls[i], tn_face_is_outer(house, face) ? "EXTERNAL" : "INTERNAL");
         }
     }
 }
@@ -238,7 +246,26 @@ static void put_materials(tn_ifc *ifc)
             associate(ifc, &ifc->made[i], "material", i, put_material(ifc, i));
     for (int of = 0; of < TN_LAYERED_COUNT; of++)
         put_layers(ifc, (tn_layered)of);
-    put_boundaries(ifc);
+}
+
+/* Are walls, doors and windows in outside faces? */
+static void put_common(tn_ifc *ifc)
+{
+    static const char *const sets[] = {"Pset_WallCommon", "Pset_DoorCommon", "Pset_WindowCommon"};
+    tn_stepfile *step = &ifc->step;
+    for (unsigned i = 0; i < 2 * IFC_COMMON_COUNT; i++) {
+        tn_stepfile_list *parts = &ifc->common[i / 2][i % 2];
+        const char *list = tn_stepfile_list_text(parts);
+        ifc->failed |= parts->text.failed;
+        if (!list)
+            continue;
+        unsigned property =
+            tn_stepfile_add(step, "IFCPROPERTYSINGLEVALUE('IsExternal',$,IFCBOOLEAN(.%s.),$)", i % 2 ? "T" : "F");
+        unsigned set = tn_stepfile_add(step, "IFCPROPERTYSET('%s',$,'%s',$,(#%u))",
+                                       tn_stepfile_guid(step, "properties", i).text, sets[i / 2], property);
+        tn_stepfile_add(step, "IFCRELDEFINESBYPROPERTIES('%s',$,$,$,%s,#%u)",
+                        tn_stepfile_guid(step, "properties of parts", i).text, list, set);
+    }
 }
 
 /* ---- elements: walls with doors and windows, posts, decks, roofs, stairs, furniture */
@@ -337,6 +364,12 @@ static void keep(tn_ifc *ifc, const tn_solid *s, unsigned part, tn_stepfile_list
     tn_stepfile_list_add(list, part);
 }
 
+/* Keeps a part for the common properties of its kind. */
+static void keep_common(tn_ifc *ifc, tn_ifc_common of, uint32_t face, unsigned part)
+{
+    tn_stepfile_list_add(&ifc->common[of][tn_face_is_outer(ifc->house, &ifc->house->faces[face])], part);
+}
+
 /* ---- walls */
 
 static void cover(tn_box *all, const tn_box *b)
@@ -419,6 +452,7 @@ static void fill(tn_ifc *ifc, uint32_t number, unsigned opening, unsigned where,
     tn_stepfile_add(step, "IFCRELFILLSELEMENT('%s',$,$,$,#%u,#%u)", tn_stepfile_guid(step, "fills", number).text,
                     opening, part);
     keep(ifc, &(tn_solid){.kind = door ? TN_SOLID_LEAF : TN_SOLID_PANE, .of = number}, part, list);
+    keep_common(ifc, door ? IFC_DOORS : IFC_WINDOWS, number, part);
 }
 
 /* The wall of a face as one box, and the opening that is cut out of it. `first` is the first of its boxes. */
@@ -449,6 +483,7 @@ static void put_wall(tn_ifc *ifc, size_t first, tn_stepfile_list *list)
                                     body, s->kind == TN_SOLID_PARTITION ? "PARTITIONING" : "SOLIDWALL");
     ifc->walls[s->of] = wall;
     keep(ifc, s, wall, list);
+    keep_common(ifc, IFC_WALLS, s->of, wall);
     put_volume(ifc, wall, "Qto_WallBaseQuantities", volume);
     if (!open)
         return;
@@ -860,8 +895,11 @@ static tn_status put_project(tn_ifc *ifc, const char *name, const char *line, tn
     aggregate_one(step, project, site, "site of project");
     aggregate_one(step, site, building, "building of site");
     tn_status status = put_storeys(ifc, building, place, error);
-    if (status == TN_OK)
+    if (status == TN_OK) {
         put_materials(ifc);
+        put_common(ifc);
+        put_boundaries(ifc);
+    }
     return status == TN_OK && (ifc->failed || step->text.failed) ? tn_fail_memory(error) : status;
 }
 

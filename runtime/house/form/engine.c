@@ -59,6 +59,8 @@ static tn_status check_rules(const tn_checker *checker, const tn_form_record *fo
         if (rules[i].way % 2 || (rules[i].way > 0 && form->way == 0))
             return tn_refuse(checker, "line %u of cells has a way whose half is not whole, or that its form has not",
                              form->rule_first + i);
+        if (rules[i].flags != 0 && rules[i].kind != TN_CELL_FUNCTION)
+            return tn_refuse(checker, "line %u of cells is outdoor and no function", form->rule_first + i);
         if (i > 0 && rules[i].kind < rules[i - 1].kind)
             return tn_refuse(checker, "line %u of cells is out of order", form->rule_first + i);
     }

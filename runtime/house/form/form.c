@@ -64,7 +64,8 @@ static void find_bare(tn_house_form *form)
 {
     const tn_module *module = form->module;
     for (uint32_t f = 0; f < tn_form_functions(form); f++)
-        form->bare[f / 64] |= UINT64_C(1) << f % 64;
+        if (!tn_form_is_outdoor(form, f))
+            form->bare[f / 64] |= UINT64_C(1) << f % 64;
     for (uint32_t t = 0; t < form->record->tile_count; t++) {
         const tn_tile_record *tile = &module->TILE_records[form->record->tile_first + t];
         for (uint32_t i = 0; i < tile->purpose_count; i++)
@@ -77,6 +78,39 @@ static void find_bare(tn_house_form *form)
                 may_be(module, line->second, form->record->rule_first + f))
                 take_out(form, f);
     }
+}
+
+/* ---- lines of faces */
+
+static bool is_any(const tn_module *module, uint32_t decides)
+{
+    tn_instruction first = tn_code_read(module->code, module->FUNCTION_records[decides].code_begin);
+    return first.opcode == TN_OP_EVERY &&
+           module->code[module->FUNCTION_records[decides].code_begin + first.length] == TN_OP_DECIDE;
+}
+
+/* Does the decision ask for the function? */
+static bool asks_for(const tn_module *module, uint32_t decides, uint32_t rule)
+{
+    for (uint32_t at = module->FUNCTION_records[decides].code_begin;;) {
+        tn_instruction instruction = tn_code_read(module->code, at);
+        if (instruction.opcode == TN_OP_DECIDE)
+            return false;
+        if (instruction.opcode == TN_OP_IS_FOR && instruction.first == (int64_t)rule)
+            return true;
+        at += instruction.length;
+    }
+}
+
+bool tn_form_line_names(const tn_house_form *form, const tn_face_line_record *line, uint32_t function)
+{
+    uint32_t rule = form->record->rule_first + function;
+    return asks_for(form->module, line->first, rule) && may_be(form->module, line->first, rule);
+}
+
+bool tn_form_names_both(const tn_house_form *form, const tn_face_line_record *line)
+{
+    return line->second != TN_NO_RECORD && !is_any(form->module, line->first) && !is_any(form->module, line->second);
 }
 
 void tn_form_ready(const tn_module *module, uint32_t index, const tn_schema *schema, tn_house_form *form)
@@ -102,6 +136,8 @@ void tn_form_ready(const tn_module *module, uint32_t index, const tn_schema *sch
     }
     for (uint32_t i = 0; i < record->storey_count; i++)
         form->level[i + 1] = form->level[i] + module->STOREY_records[record->storey_first + i].height;
+    for (uint32_t f = 0; f < tn_form_functions(form); f++)
+        form->has_outdoor |= tn_form_is_outdoor(form, f);
     if (record->way > 0)
         find_bare(form);
 }

@@ -22,12 +22,14 @@ typedef struct tn_house_form {
     int64_t level[TN_STOREYS_MAX + 1];           /* the floor of each storey, and what is above the last */
     uint64_t
         bare[(TN_CELL_RULES_MAX + 63) / 64]; /* if it asks for ways: a bit for each function whose cells are bare */
+    bool has_outdoor;                        /* some function is outdoor */
 } tn_house_form;
 
 /* Makes the FORM record `index` ready; `schema` is its schema. */
 void tn_form_ready(const tn_module *module, uint32_t index, const tn_schema *schema, tn_house_form *form);
 
-/* Have cells of the function nothing in them: neither tiles, nor flights or stairs of any line of faces? */
+/* Have cells of the function nothing in them: neither tiles, nor flights or stairs of any line of faces? Those in the
+ * open are not called so. */
 static inline bool tn_form_is_bare(const tn_house_form *form, uint32_t function)
 {
     return form->bare[function / 64] >> function % 64 & 1;
@@ -48,6 +50,17 @@ static inline const tn_choice_record *tn_form_choice(const tn_house_form *form, 
 {
     return &form->module->CHOICE_records[form->record->choice_first + choice];
 }
+
+static inline bool tn_form_is_outdoor(const tn_house_form *form, uint32_t function)
+{
+    return tn_form_rule(form, function)->flags & TN_OUTDOOR;
+}
+
+/* Does a line of faces name the function of its first cells, and may they have it? */
+bool tn_form_line_names(const tn_house_form *form, const tn_face_line_record *line, uint32_t function);
+
+/* Does a line of faces say of both cells what they are: is neither `cell(any)`? */
+bool tn_form_names_both(const tn_house_form *form, const tn_face_line_record *line);
 
 /* The next section, by the shape of each choice, the last choice first; all zeros begin. False after the last. */
 static inline bool tn_form_next_section(const tn_house_form *form, uint32_t *shapes)

@@ -36,8 +36,8 @@ enum {
     FLOOR_WORDS = FLOOR_Y1 + 2
 };
 enum { POST_Y, POST_THICK = POST_Y + 2, POST_WORDS };
-enum { THICK_X = 1, THICK_Y = 2 }; /* as thick as an outside wall */
-enum { KIND_OUTSIDE = 1, KIND_LEAF = 2, KIND_FLOOR = 4, KIND_BEYOND = 8, KIND_OF = 32 }; /* FLOOR: its words follow */
+enum { THICK_X = 1, THICK_Y = 2 };                                                     /* as thick as an outside wall */
+enum { KIND_OUTER = 1, KIND_LEAF = 2, KIND_FLOOR = 4, KIND_BEYOND = 8, KIND_OF = 32 }; /* FLOOR: its words follow */
 #define NO_ZONE UINT32_MAX
 
 bool tn_frontier_fills(const tn_frontier *frontier, const tn_house *house, uint32_t cell)
@@ -72,7 +72,7 @@ static bool push_face(tn_frontier *frontier, const tn_house *house, uint32_t ind
 {
     const tn_face *face = &house->faces[index];
     const tn_cell *c = &house->cells[cell];
-    uint32_t kind = kind_seen(frontier, c, face), word = kind * KIND_OF + (face->relation == TN_FACE_OUTSIDE);
+    uint32_t kind = kind_seen(frontier, c, face), word = kind * KIND_OF + tn_face_is_outer(house, face);
     if (!tn_form_asks_ways(frontier->form))
         return tn_key_push(key, word);
     tn_face_view view = tn_face_seen(house, index, cell);
@@ -205,7 +205,7 @@ enum { CELL };
 static tn_face_view *add(tn_cells_alone *alone, uint32_t first, tn_house_side side, uint32_t kind, tn_rectangle at)
 {
     tn_house *house = &alone->house;
-    bool outside = kind & KIND_OUTSIDE;
+    bool outside = kind & KIND_OUTER;
     house->faces[house->face_count] = (tn_face){.first = first,
                                                 .second = outside ? TN_NO_CELL : alone->cells,
                                                 .relation = outside ? TN_FACE_OUTSIDE : TN_FACE_BESIDE,
@@ -231,7 +231,7 @@ static const uint32_t *read_floor(uint32_t kind, const uint32_t *words, tn_face_
 /* A short end of a wall, as thick as an outside wall or a partition. */
 static void add_end(tn_cells_alone *alone, uint32_t storey, bool thick, tn_rectangle at)
 {
-    add(alone, alone->cells, TN_HOUSE_BACK, TN_FACE_WALL * KIND_OF + (thick ? KIND_OUTSIDE : 0), at);
+    add(alone, alone->cells, TN_HOUSE_BACK, TN_FACE_WALL * KIND_OF + (thick ? KIND_OUTER : 0), at);
     alone->house.faces[alone->house.face_count - 1].storey = storey;
 }
 
@@ -286,7 +286,7 @@ static void add_cells(tn_cells_alone *alone, const uint32_t *words)
         house->cells[k] = cell;
         house->cells[k].tray = k == alone->cells;
         house->cells[k].storey = words[BASE_STOREY] + (k == alone->cells ? 0 : k);
-        house->cells[k].function = words[BASE_FUNCTIONS + (k == alone->cells ? 0 : k)];
+        house->cells[k].function = k == alone->cells ? TN_NO_FUNCTION : words[BASE_FUNCTIONS + k];
     }
 }
 
@@ -820,6 +820,14 @@ static tn_status keyed_cost(tn_frontier *frontier, tn_frontier_keyed *known, con
     return status;
 }
 
+/* Is what stands in the face an outside wall, and which of its cells is indoors? */
+static bool push_shelter(const tn_house *house, const tn_face *face, tn_key *key)
+{
+    enum { FIRST = 1, OUTER = 2 };
+    bool outer = tn_face_is_outer(house, face), first = outer && tn_face_sheltered(house, face) == face->first;
+    return tn_key_push(key, (outer ? OUTER : 0u) | (first ? FIRST : 0u));
+}
+
 tn_status tn_frontier_tray_cost(tn_frontier *frontier, const tn_house *house, uint32_t *number, tn_error *error)
 {
     tn_frontier_prices *p = &frontier->prices;
@@ -827,7 +835,7 @@ tn_status tn_frontier_tray_cost(tn_frontier *frontier, const tn_house *house, ui
     bool ok = tn_key_push(&p->key, house->trays[0]);
     for (size_t i = 0; ok && i < house->face_count; i++)
         if (tn_face_is_inner(&house->faces[i]))
-            ok = tn_key_push(&p->key, house->faces[i].kind);
+            ok = tn_key_push(&p->key, house->faces[i].kind) && push_shelter(house, &house->faces[i], &p->key);
     return ok ? keyed_cost(frontier, &p->alone, house, NULL, NULL, number, error) : tn_fail_memory(error);
 }
 
@@ -844,7 +852,8 @@ bool tn_frontier_push_shape(const tn_frontier *frontier, const tn_house *house, 
     for (size_t i = 0; ok && i < house->cell_count; i++) {
         const tn_cell *cell = &house->cells[i];
         ok = tn_push_long(key, (uint64_t)cell->at.y0) && tn_push_long(key, (uint64_t)cell->at.y1) &&
-             tn_key_push(key, cell->storey << 1 | cell->open) && tn_key_push(key, cell->zone);
+             tn_key_push(key, cell->storey << 2 | (uint32_t)tn_cell_is_outdoor(house, (uint32_t)i) << 1 | cell->open) &&
+             tn_key_push(key, cell->zone);
     }
     for (size_t i = 0; ok && i < house->face_count; i++)
         if (house->faces[i].relation == TN_FACE_UNDER)

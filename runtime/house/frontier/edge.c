@@ -29,7 +29,7 @@ static const tn_face_line_record *line_at(const tn_house_form *form, uint32_t li
 /* ---- descriptions */
 
 /* Their words: then come the bits of the lines. */
-enum { OF_STOREY, OF_FUNCTION, OF_LINES };
+enum { OF_STOREY, OF_FUNCTION, OF_OUTDOOR, OF_LINES };
 
 tn_status tn_frontier_describe(tn_frontier *frontier, const tn_house *house, uint32_t cell, uint32_t *description,
                                tn_error *error)
@@ -39,7 +39,8 @@ tn_status tn_frontier_describe(tn_frontier *frontier, const tn_house *house, uin
     tn_key *key = &frontier->key;
     uint32_t word = 0, used = 0;
     key->size = 0;
-    bool ok = tn_key_push(key, at->storey) && tn_key_push(key, at->function);
+    bool ok = tn_key_push(key, at->storey) && tn_key_push(key, at->function) &&
+              tn_key_push(key, tn_cell_is_outdoor(house, cell));
     for (uint32_t i = 0; ok && i < form->record->face_count; i++) {
         const tn_face_line_record *line = line_at(form, i);
         if (line->relation == TN_FACE_UNDER || line->relation == TN_FACE_ACROSS)
@@ -99,24 +100,29 @@ static tn_status note_function(tn_frontier *frontier, const tn_house *house, con
     return status;
 }
 
-/* All that the cells of a tray can be. */
+static tn_status describe_cell(tn_describing *d, const tn_house *house, uint32_t cell, tn_error *error)
+{
+    uint32_t description;
+    tn_status status = tn_frontier_describe(d->frontier, house, cell, &description, error);
+    if (status == TN_OK)
+        status = note(d, description, house->trays[0], error);
+    return status == TN_OK && !house->cells[cell].open ? note_function(d->frontier, house, &house->cells[cell], error)
+                                                       : status;
+}
+
+/* All that the cells of a tray can be. What is said of a void depends on the cell that it belongs to. */
 static tn_status describe_tray(tn_describing *d, tn_tray tray, tn_error *error)
 {
     tn_house house;
-    tn_frontier *s = d->frontier;
-    tn_status status = tn_house_stand(s->form, &tray, 1, s->shapes, &house, error);
-    for (uint32_t i = 0; status == TN_OK && i < house.cell_count; i++) {
-        tn_cell *cell = &house.cells[i];
-        uint32_t functions = tn_form_functions(s->form), description;
-        for (uint32_t f = 0; status == TN_OK && f < functions + cell->open; f++) {
-            if (f < functions && !tn_cell_may(&house, cell, f))
+    const tn_house_form *form = d->frontier->form;
+    tn_status status = tn_house_stand(form, &tray, 1, d->frontier->shapes, &house, error);
+    for (uint32_t i = 0, of = 0; status == TN_OK && i < house.cell_count; i++) {
+        of = house.cells[i].open ? of : i;
+        for (uint32_t f = 0; status == TN_OK && f < tn_form_functions(form); f++) {
+            if (!tn_cell_may(&house, &house.cells[of], f))
                 continue;
-            cell->function = f < functions ? f : TN_NO_FUNCTION;
-            status = tn_frontier_describe(s, &house, i, &description, error);
-            if (status == TN_OK)
-                status = note(d, description, tray, error);
-            if (status == TN_OK && f < functions)
-                status = note_function(s, &house, cell, error);
+            house.cells[of].function = f;
+            status = describe_cell(d, &house, i, error);
         }
     }
     tn_house_clear(&house);
@@ -164,26 +170,62 @@ static bool applies(const tn_face_line_record *line, uint32_t place, const uint3
            (line->relation == TN_FACE_BESIDE && speaks(left, place, LINE_SECOND) && speaks(right, place, LINE_FIRST));
 }
 
-/* Appends the lines between two, or (right NULL) those outside on a side. Which of the two a line names first matters
- * to leaves of doors, if the form asks for ways: the lowest bit. */
-static bool push_lines(const tn_frontier *frontier, const uint32_t *left, const uint32_t *right, uint32_t side,
-                       tn_key *key)
+static bool is_outside(const tn_face_line_record *line, uint32_t place, const uint32_t *cell, uint32_t side)
 {
-    const tn_house_form *form = frontier->form;
-    bool ok = true, more = true, ways = tn_form_asks_ways(form);
-    for (uint32_t i = 0, place = 0; ok && more && i < form->record->face_count; i++) {
+    return line->relation == TN_FACE_OUTSIDE && speaks(cell, place, LINE_FIRST) &&
+           (line->side == TN_HOUSE_ANY_SIDE || line->side == side);
+}
+
+/* A face between two cells (left and right), or outside on a side of one (right: NULL). outer: one of the two is in the
+ * open; sheltered: the one that is not, whose outside face it is on its side, or NULL. */
+typedef struct tn_border_face {
+    const uint32_t *left, *right, *sheltered;
+    uint32_t side;
+    bool outer;
+} tn_border_face;
+
+static tn_border_face face_between(const uint32_t *left, const uint32_t *right)
+{
+    bool one = left[OF_OUTDOOR], other = right[OF_OUTDOOR];
+    return (tn_border_face){left, right,
+                            one == other ? NULL
+                            : one        ? right
+                                         : left,
+                            one ? TN_HOUSE_LEFT : TN_HOUSE_RIGHT, one || other};
+}
+
+static tn_border_face face_outside(const uint32_t *cell, tn_frontier_role_at role)
+{
+    return (tn_border_face){cell, NULL, cell, role == TN_FRONTIER_EXIT ? TN_HOUSE_RIGHT : TN_HOUSE_LEFT, true};
+}
+
+/* Appends the lines that are asked of a face: those between its cells, or (outside) those outside of one, up to the
+ * first that always has a kind that fits. Which of two cells a line names first matters to leaves of doors, if the form
+ * asks for ways: the lowest bit. *more: none of them always has one. */
+static bool push_asked(const tn_house_form *form, const tn_border_face *face, bool outside, tn_key *key, bool *more)
+{
+    const uint32_t *left = face->left, *right = face->right;
+    bool ok = true, ways = tn_form_asks_ways(form);
+    for (uint32_t i = 0, place = 0; ok && *more && i < form->record->face_count; i++) {
         const tn_face_line_record *line = line_at(form, i);
         if (line->relation == TN_FACE_UNDER || line->relation == TN_FACE_ACROSS)
             continue;
-        bool outside = line->relation == TN_FACE_OUTSIDE && !right && speaks(left, place, LINE_FIRST) &&
-                       (line->side == TN_HOUSE_ANY_SIDE || line->side == side);
-        place++;
-        if (!outside && !(right && applies(line, place - 1, left, right)))
+        uint32_t at = place++;
+        if (outside ? !is_outside(line, at, face->sheltered, face->side)
+                    : !applies(line, at, left, right) || (face->outer && !tn_form_names_both(form, line)))
             continue;
-        bool as_written = ways && right && speaks(left, place - 1, LINE_FIRST) && speaks(right, place - 1, LINE_SECOND);
+        bool as_written = ways && !outside && speaks(left, at, LINE_FIRST) && speaks(right, at, LINE_SECOND);
         ok = tn_key_push(key, i << 1 | as_written);
-        more = !always_fits(form, line);
+        *more = !always_fits(form, line);
     }
+    return ok;
+}
+
+/* Those of a face beside a cell in the open are lines that name both cells, then those outside of the other one. */
+static bool push_lines(const tn_frontier *frontier, const tn_border_face *face, tn_key *key)
+{
+    bool more = true, ok = !face->right || push_asked(frontier->form, face, false, key, &more);
+    ok = ok && (!face->sheltered || push_asked(frontier->form, face, true, key, &more));
     return ok && tn_key_push(key, TN_FRONTIER_NONE);
 }
 
@@ -192,13 +234,14 @@ static bool push_lines(const tn_frontier *frontier, const uint32_t *left, const 
 /* What is on the other side of the face. */
 typedef enum tn_reached_over { OVER_NOTHING, OVER_OTHER, OVER_SAME_FUNCTION } tn_reached_over;
 
-static void reach_kind(const tn_frontier *frontier, uint32_t kind, tn_reached_over over, tn_frontier_reach *reach)
+static void reach_kind(const tn_frontier *frontier, uint32_t kind, tn_reached_over over, bool outer,
+                       tn_frontier_reach *reach)
 {
     const tn_frontier_questions *q = &frontier->questions;
     const tn_module *module = frontier->form->module;
     const tn_opening_record *opening = tn_form_opening(frontier->form, kind);
     reach->marks |= tn_frontier_marks(frontier, kind);
-    reach->glazed = reach->glazed || (over == OVER_NOTHING && opening && opening->flags & TN_GLAZED);
+    reach->glazed = reach->glazed || (outer && opening && opening->flags & TN_GLAZED);
     if (over == OVER_NOTHING)
         return;
     reach->open = reach->open || (over == OVER_SAME_FUNCTION && kind == TN_FACE_OPEN);
@@ -210,17 +253,21 @@ static void reach_kind(const tn_frontier *frontier, uint32_t kind, tn_reached_ov
         reach->meetings |= (uint64_t)tn_meeting_has(module, &module->MEETING_records[q->meetings[m]], kind) << m;
 }
 
-/* The kinds of the lines in a list of push_lines; a wall, too, which stands if none of them fits. */
-static void reach_lines(const tn_frontier *frontier, const uint32_t *lines, const uint32_t *end, tn_reached_over over,
-                        tn_frontier_reach *reach)
+/* The kinds of the lines in a list of push_lines; what is there if none of them fits, too: a wall, or nothing. */
+static void reach_lines(const tn_frontier *frontier, const uint32_t *lines, const uint32_t *end,
+                        const tn_border_face *face, tn_frontier_reach *reach)
 {
+    tn_reached_over over = !face->right                                          ? OVER_NOTHING
+                           : face->left[OF_FUNCTION] == face->right[OF_FUNCTION] ? OVER_SAME_FUNCTION
+                                                                                 : OVER_OTHER;
     const tn_house_form *form = frontier->form;
     for (; lines < end && *lines != TN_FRONTIER_NONE; lines++) {
         const tn_face_line_record *line = line_at(form, *lines >> 1);
         for (uint32_t k = 0; k < line->kind_count; k++)
-            reach_kind(frontier, form->module->HOUSE_ITEM_records[line->kind_first + k].number, over, reach);
+            reach_kind(frontier, form->module->HOUSE_ITEM_records[line->kind_first + k].number, over, face->outer,
+                       reach);
     }
-    reach_kind(frontier, TN_FACE_WALL, over, reach);
+    reach_kind(frontier, face->outer && !face->sheltered ? TN_FACE_OPEN : TN_FACE_WALL, over, face->outer, reach);
 }
 
 /* meets: [descriptions], those that can stand at the right of the one, or at its left. */
@@ -233,21 +280,21 @@ static bool classify(tn_frontier *frontier, uint32_t description, const bool *me
     const uint32_t *own = tn_interned(all, description, &size);
     uint32_t storey = own[OF_STOREY];
     tn_key *key = &frontier->key;
+    tn_border_face face = face_outside(own, role);
     key->size = 0;
-    bool ok = push_lines(frontier, own, NULL, role == TN_FRONTIER_EXIT ? TN_HOUSE_RIGHT : TN_HOUSE_LEFT, key);
+    bool ok = tn_key_push(key, own[OF_OUTDOOR]) && push_lines(frontier, &face, key);
     if (ok)
-        reach_lines(frontier, key->data, key->data + key->size, OVER_NOTHING, reach);
+        reach_lines(frontier, key->data + 1, key->data + key->size, &face, reach);
     for (uint32_t d = 0; ok && d < all->count; d++) {
         const uint32_t *other = tn_interned(all, d, &size);
         if (!meets[d] || other[OF_STOREY] != storey)
             continue;
         ok = tn_key_push(key, d);
         size_t first = key->size;
-        ok = ok && (role == TN_FRONTIER_EXIT ? push_lines(frontier, own, other, 0, key)
-                                             : push_lines(frontier, other, own, 0, key));
+        face = role == TN_FRONTIER_EXIT ? face_between(own, other) : face_between(other, own);
+        ok = ok && push_lines(frontier, &face, key);
         if (ok)
-            reach_lines(frontier, key->data + first, key->data + key->size,
-                        own[OF_FUNCTION] == other[OF_FUNCTION] ? OVER_SAME_FUNCTION : OVER_OTHER, reach);
+            reach_lines(frontier, key->data + first, key->data + key->size, &face, reach);
     }
     *class = ok ? tn_intern(classes, key->data, key->size) : UINT32_MAX;
     return *class != UINT32_MAX;
@@ -398,17 +445,19 @@ static bool push_layers(const tn_inside *in, const tn_face *face, tn_key *key)
     return tn_key_push(key, layers.first << 1 | layers.from_high) && tn_key_push(key, layers.count);
 }
 
-/* Walls across end at the interfaces on both sides of the tray. */
+/* Walls across, and posts of open sides, end at the interfaces on both sides of the tray. */
 static bool push_ends(const tn_inside *in, tn_key *key)
 {
     bool ok = true;
     for (size_t i = 0; ok && i < in->house.face_count; i++) {
         const tn_face *face = &in->house.faces[i];
-        int64_t thick =
-            face->relation == TN_FACE_UNDER || !tn_face_is_inner(face) ? 0 : tn_face_thickness(&in->house, face);
-        if (thick > 0)
-            ok = tn_key_push(key, face->storey) && tn_push_long(key, (uint64_t)face->at.y0) &&
-                 tn_push_long(key, (uint64_t)thick) && push_layers(in, face, key);
+        if (face->relation == TN_FACE_UNDER || !tn_face_is_inner(face))
+            continue;
+        int64_t thick = tn_face_thickness(&in->house, face);
+        bool posts = tn_face_is_open_side(&in->house, face);
+        if (thick > 0 || posts)
+            ok = tn_key_push(key, face->storey << 1 | posts) && tn_push_long(key, (uint64_t)face->at.y0) &&
+                 tn_push_long(key, (uint64_t)thick) && (thick == 0 || push_layers(in, face, key));
     }
     return ok;
 }

@@ -137,7 +137,7 @@ static tn_int128 interface_glass(const tn_interface_house *c, uint32_t cell)
 {
     tn_int128 glass = 0;
     for (size_t k = 0; c->open[cell].glass && k < c->count; k++)
-        if (c->house.faces[c->faces[k]].first == cell)
+        if (tn_face_sheltered(&c->house, &c->house.faces[c->faces[k]]) == cell)
             glass += tn_face_glazing(&c->house, &c->house.faces[c->faces[k]]);
     return glass;
 }

@@ -42,7 +42,7 @@ static tn_int128 inner_glass(const tn_inside *in, uint32_t cell)
 {
     tn_int128 glass = 0;
     for (size_t i = 0; i < in->house.face_count; i++)
-        if (tn_face_is_inner(&in->house.faces[i]) && in->house.faces[i].first == cell)
+        if (tn_face_is_inner(&in->house.faces[i]) && tn_face_sheltered(&in->house, &in->house.faces[i]) == cell)
             glass += tn_face_glazing(&in->house, &in->house.faces[i]);
     return glass;
 }

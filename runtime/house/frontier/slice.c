@@ -49,9 +49,11 @@ static tn_status too_many(const tn_cutting *c, tn_error *error)
 
 static tn_frontier_cut *cell_at(const tn_cutting *c, size_t cell)
 {
-    size_t functions = tn_form_functions(c->inside.frontier->form);
-    uint32_t function = c->inside.house.cells[cell].function;
-    return &c->cells[cell * (functions + 1) + (c->inside.house.cells[cell].open ? functions : function)];
+    const tn_house *house = &c->inside.house;
+    size_t functions = tn_form_functions(house->form), function = house->cells[cell].function;
+    if (house->cells[cell].open)
+        function = functions + tn_cell_is_outdoor(house, (uint32_t)cell);
+    return &c->cells[cell * (functions + 2) + function];
 }
 
 static tn_status know_cell(tn_cutting *c, uint32_t i, tn_frontier_cut *cell, tn_error *error)
@@ -87,7 +89,7 @@ static tn_status know_cells(tn_cutting *c, tn_error *error)
 
 static tn_status begin_cells(tn_cutting *c, tn_error *error)
 {
-    size_t count = c->inside.house.cell_count * ((size_t)tn_form_functions(c->inside.frontier->form) + 1);
+    size_t count = c->inside.house.cell_count * ((size_t)tn_form_functions(c->inside.frontier->form) + 2);
     c->cells = calloc(count + 1, sizeof *c->cells);
     c->answers = calloc(count * c->inside.frontier->questions.answer_words + 1, sizeof *c->answers);
     if (!c->cells || !c->answers)

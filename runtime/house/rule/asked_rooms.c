@@ -24,9 +24,11 @@ tn_status tn_rooms_gather(tn_house_rules *rules, tn_error *error)
         room->cells += !cell->open;
         room->area += cell->open ? 0 : tn_cell_area(cell);
     }
-    for (size_t i = 0; status == TN_OK && i < house->face_count; i++)
-        rules->rooms[rules->todo[rules->room_of[house->faces[i].first]]].glazed +=
-            tn_face_glazing(house, &house->faces[i]);
+    for (size_t i = 0; status == TN_OK && i < house->face_count; i++) {
+        uint32_t cell = tn_face_sheltered(house, &house->faces[i]);
+        if (cell != TN_NO_CELL)
+            rules->rooms[rules->todo[rules->room_of[cell]]].glazed += tn_face_glazing(house, &house->faces[i]);
+    }
     rules->gathered = status == TN_OK;
     return status;
 }

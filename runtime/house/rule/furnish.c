@@ -104,12 +104,13 @@ static uint32_t *add_long(uint32_t *word, int64_t value)
 }
 
 /* What is in the face, and whether it is one of the cell's: others matter by the posts at their ends. */
-static uint32_t *add_face(uint32_t *word, const tn_face *face, const tn_cell *cell, uint32_t index)
+static uint32_t *add_face(uint32_t *word, const tn_house *house, const tn_face *face, uint32_t index)
 {
-    enum { FIRST = 1, SECOND, OUTSIDE = 4, SIDE = 8, KIND = 64 };
+    enum { FIRST = 1, SECOND, OUTER = 4, SIDE = 8, KIND = 64 };
+    const tn_cell *cell = &house->cells[index];
     uint32_t of = face->first == index ? FIRST : face->second == index ? SECOND : 0;
-    uint32_t outside = face->relation == TN_FACE_OUTSIDE ? OUTSIDE : 0;
-    *word++ = face->kind * KIND + (uint32_t)face->side * SIDE + outside + of;
+    uint32_t outer = tn_face_is_outer(house, face) ? OUTER : 0;
+    *word++ = face->kind * KIND + (uint32_t)face->side * SIDE + outer + of;
     word = add_long(word, face->at.x0 - cell->at.x0);
     word = add_long(word, face->at.x1 - cell->at.x0);
     word = add_long(word, face->at.y0 - cell->at.y0);
@@ -149,7 +150,7 @@ static uint32_t *add_cell(uint32_t *word, const tn_house *house, uint32_t index)
     for (uint32_t i = 0; i < house->face_count; i++) {
         if (!is_near(&house->faces[i], cell))
             continue;
-        word = add_face(word, &house->faces[i], cell, index);
+        word = add_face(word, house, &house->faces[i], index);
         if (tn_form_asks_ways(house->form))
             word = add_view(word, house, i, index);
     }

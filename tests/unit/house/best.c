@@ -522,7 +522,7 @@ static void test_drawn(void **state)
 static void test_costs(void **state)
 {
     (void)state;
-    assert_true(check_drawn((drawn_house){.state = 5, .priced = true}, (uint32_t)test_share(30), 5000) >=
+    assert_true(check_drawn((drawn_house){.state = 5, .priced = true}, (uint32_t)test_share(40), 5000) >=
                 (uint32_t)test_share(9));
 }
 

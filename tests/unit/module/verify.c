@@ -463,9 +463,54 @@ static void test_sources_are_bounded_together(void **state)
     expect(builder, TN_LIMIT, "the module's sources together pass the limit of 268435456 bytes");
 }
 
+/* The sample with a form that has a function and a void, whose records `void_rule` and `form` are. */
+static void expect_form(const tn_cell_rule_record *void_rule, const tn_form_record *form, const char *reason)
+{
+    tn_builder *builder = sample_builder();
+    uint32_t function = (uint32_t)tn_builder_count(builder, TN_SECTION_FUNCTION), begin = tn_builder_offset(builder);
+    tn_cell_rule_record rule = {.name = tn_builder_string(builder, "porch"), .decides = function, .flags = TN_OUTDOOR};
+    tn_builder_emit(builder, TN_OP_EVERY, 0, 0);
+    tn_builder_emit(builder, TN_OP_DECIDE, 0, 0);
+    tn_builder_add_FUNCTION(builder, &(tn_function_record){.name = tn_builder_string(builder, "cells"),
+                                                           .kind = TN_FUNCTION_CELL,
+                                                           .code_begin = begin,
+                                                           .code_end = tn_builder_offset(builder),
+                                                           .stack_max = 1});
+    tn_builder_add_STOREY(builder, &(tn_storey_record){.name = tn_builder_string(builder, "ground"), .height = 9});
+    tn_builder_add_CELL_RULE(builder, &rule);
+    rule = *void_rule;
+    rule.name = tn_builder_string(builder, NULL);
+    rule.decides = function;
+    tn_builder_add_CELL_RULE(builder, &rule);
+    tn_form_record record = *form;
+    record.name = tn_builder_string(builder, "huts");
+    record.spine = 3;
+    record.wall = record.partition = 2;
+    record.deck = record.roof = 1;
+    record.storey_count = 1;
+    record.rule_count = 2;
+    tn_builder_add_FORM(builder, &record);
+    expect(builder, reason ? TN_INVALID : TN_OK, reason);
+}
+
+static void test_forms(void **state)
+{
+    (void)state;
+    const tn_cell_rule_record plain = {.kind = TN_CELL_VOID};
+    expect_form(&plain, &(tn_form_record){0}, NULL);
+    expect_form(&(tn_cell_rule_record){.kind = TN_CELL_VOID, .flags = TN_OUTDOOR}, &(tn_form_record){0},
+                "line 1 of cells is outdoor and no function");
+    expect_form(&(tn_cell_rule_record){.kind = TN_CELL_VOID, .flags = 2}, &(tn_form_record){0}, "flags");
+    expect_form(&(tn_cell_rule_record){.kind = TN_CELL_VOID, .way = 2}, &(tn_form_record){0},
+                "line 1 of cells has a way whose half is not whole, or that its form has not");
+    expect_form(&plain, &(tn_form_record){.way = 3, .headroom = 1}, "ways whose halves are not whole");
+    expect_form(&plain, &(tn_form_record){.way = 2}, "or without headroom");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_forms),
         cmocka_unit_test(test_sample_is_good),
         cmocka_unit_test(test_strings),
         cmocka_unit_test(test_names),
