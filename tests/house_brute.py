@@ -18,7 +18,7 @@ failures = []
 seen = {"houses": 0, "decisions": 0}
 
 OPENINGS = {"gap": (48, 84, 0, "passage"), "hatch": (30, 80, 0, "passage"), "sash": (36, 48, 32, "glazed"), "slot": (24, 18, 60, "glazed"), "shutter": (30, 48, 30, "")}
-RULES = ("dim", "far", "level", "climbed", "round")
+RULES = ("dim", "far", "level", "climbed", "round", "stepped")
 
 
 def same(what, got, wanted):
@@ -84,6 +84,7 @@ rule far = apart(cell(bed), from cell(living))
 rule level = apart(cell(bed or well, ground), from cell(living), by open or gap)
 rule climbed = apart(cell(bed, loft), from cell(living), through cell(well or living), by gap or hatch or open or steps)
 rule round = apart(cell(seat), from cell(bed), through cell(not living), by hatch)
+rule stepped = apart(cell(bed), from cell(living), by step-free)
 library all from rows in huts {{ }}
 library kept from rows in huts {{ prune dim, level, climbed }}
 '''
@@ -265,6 +266,7 @@ def decide(form, cells, functions, faces, kinds):
         apart(ground, of("living"), anywhere, {"open", "gap"}),
         apart(above, of("living"), of("well", "living"), {"gap", "hatch", "open", "steps"}),
         apart(of("seat"), of("bed"), lambda i: functions[i] != "living", {"hatch"}),
+        apart(of("bed"), of("living"), anywhere, {"open", "gap", "hatch"}),
     )
 
 
@@ -336,7 +338,7 @@ def check(seed):
             same(f"form {seed}: {line}: {' '.join(RULES)}", row, bits)
             break
     same(f"form {seed}: decisions", len(rows), len(wanted))
-    kept = [line for line, (dim, _, level, climbed, _) in zip(lines, decisions) if not (dim or level or climbed)]
+    kept = [line for line, (dim, _, level, climbed, _, _) in zip(lines, decisions) if not (dim or level or climbed)]
     same(f"form {seed}: houses that are kept", run("enumerate", path, "--library", "kept").splitlines(), kept)
     counted = json.loads(run("count", path, "--library", "kept", "--json"))
     same(f"form {seed}: count", counted["houses"], str(len(kept)))

@@ -20,7 +20,7 @@ static void look_below(const tn_house *house, const tn_face *below, const tn_wal
                        int64_t *reaches, int64_t *next)
 {
     tn_wall_run run = run_of(below);
-    bool bears = tn_face_thickness(house, below) >= thick, posts = tn_face_is_open_side(below);
+    bool bears = tn_face_thickness(house, below) >= thick, posts = tn_face_is_open_side(house, below);
     if (run.in_y == above->in_y && run.plane == above->plane) {
         if (bears && run.from <= at && run.to > *reaches)
             *reaches = run.to;

@@ -143,11 +143,33 @@ static bool is_passable(const tn_checked_form *form, uint32_t kind)
            (kind >= TN_FACE_KIND_COUNT && form->openings[kind - TN_FACE_KIND_COUNT].passage);
 }
 
+/* `by step-free`: all that one walks through but stairs, unless the form has an opening of this name. */
+static bool is_step_free(const tn_ast_expr *expr, const tn_checked_form *form, const tn_ast_word *word)
+{
+    return expr->kind == TN_EXPR_APART && tn_word_is(word, "step-free") &&
+           tn_form_opening_named(form, word->text) == TN_NONE;
+}
+
+static void add_step_free(tn_checked_ask *ask)
+{
+    ask->kinds[ask->kind_count++] = TN_FACE_OPEN;
+    for (uint32_t i = 0; i < ask->form->opening_count; i++)
+        if (ask->form->openings[i].passage && ask->form->openings[i].turn == TN_TURN_NONE)
+            ask->kinds[ask->kind_count++] = TN_FACE_KIND_COUNT + i;
+}
+
 static bool read_kinds(tn_check *check, const tn_ast_expr *expr, tn_checked_ask *ask)
 {
     bool good = true;
-    ask->kinds = TN_NEW_ARRAY(check->arena, uint32_t, expr->kinds.count);
+    size_t most = expr->kinds.count;
+    for (TN_EACH(const tn_ast_word, word, expr->kinds))
+        most += is_step_free(expr, ask->form, word) ? ask->form->opening_count : 0;
+    ask->kinds = TN_NEW_ARRAY(check->arena, uint32_t, most);
     for (TN_EACH(const tn_ast_word, word, expr->kinds)) {
+        if (ask->kinds && is_step_free(expr, ask->form, word)) {
+            add_step_free(ask);
+            continue;
+        }
         uint32_t kind = ask->kinds ? tn_form_kind(check, ask->form, TN_FACE_RELATION_COUNT, word) : TN_NONE;
         good &= kind != TN_NONE;
         if (kind == TN_NONE)
