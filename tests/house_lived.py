@@ -14,6 +14,7 @@ import tempfile
 
 # File, library, what half of the houses are asked to be besides, so that small ones are among them.
 LIBRARIES = [
+    ("cottage.plan", "cottages", "quantity(any, n = 2)"),
     ("row-houses.plan", "row-houses", "quantity(any, n = 2)"),
 ]
 PRIVATE = {"bath", "bedroom", "store", "larder"}  # nobody goes through them

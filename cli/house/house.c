@@ -217,9 +217,8 @@ const tn_command tn_command_house = {
         "house as one closed mesh in metres, in groups by what its parts are. IFC has it as a building model, in "
         "millimetres. SVG, PDF, PNG and DXF are drawings to scale: "
         "a sheet of all, or those that --view names.",
-    .example = "$ tartan house cottage \"14' room:14' none ; 1 gable(9:12) 1 flat ; living ; wall window wall\"\n14' "
-               "room:14' none ; 1 gable(9:12) 1 flat ; "
-               "living ; wall window wall ; -",
+    .example = "$ tartan house cottage \"14' none room:14' none ; 1 1 gable(9:12) 1 ; living\"\n"
+               "14' none room:14' none ; 1 1 gable(9:12) 1 ; living ; window window ; settle.back",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),

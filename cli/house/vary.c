@@ -91,7 +91,7 @@ const tn_command tn_command_vary = {
         "tile or what is in a face, the first that fits takes its place. In HOUSE, a house line, values may be left "
         "out "
         "(docs/houses.md).",
-    .example = "$ tartan vary cottage '#10:77' --at 1.body.ground",
+    .example = "$ tartan vary cottage '#541:77' --at 1.body.ground",
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
