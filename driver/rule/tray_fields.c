@@ -231,10 +231,11 @@ typedef struct stepping {
     bool said, deep; /* an item is about the field; it has a depth */
 } stepping;
 
+/* Of a field that no item is about all values are: what leaves some out is a parameter, by what one call gives it. */
 static bool allows(const stepping *s, uint32_t value)
 {
     uint32_t bit = s->schema->value_start[s->field] + value;
-    return s->spec == UINT32_MAX || tn_spec_word(s->schema->module, s->spec, bit / 64) >> (bit % 64) & 1;
+    return !s->said || s->spec == UINT32_MAX || tn_spec_word(s->schema->module, s->spec, bit / 64) >> (bit % 64) & 1;
 }
 
 static bool same_fill(const stepping *s, uint32_t a, uint32_t b)

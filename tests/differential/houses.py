@@ -22,8 +22,9 @@ WEIGHTS.update({
     "by_kinds: BY or_names": .4, "walk_by: COMMA BY or_names": .3, "outside_side: %empty": 2, "relation: BESIDE": 8, "relation: UNDER": .2,
 })
 FORM_CLAUSES = {
-    "storey NAME doc size": 0, "thickness size": 0, "spine NAME": .3, "section EQUAL shapes": .4, "section NAME EQUAL shapes": .8,
-    "forbid_word sections": 1, "void cells": .3, "no cells": .2, "function NAME doc AT cells": 0, "opening NAME doc WIDE size HIGH size opening_parts": 0,
+    "storey NAME doc size": 0, "thickness size": 0, "thickness size OPEN_BRACE CLOSE_BRACE": 0, "thickness size OPEN_BRACE layers CLOSE_BRACE": 0,
+    "spine NAME": .3, "section EQUAL shapes": .4, "section NAME EQUAL shapes": .8,
+    "forbid_word sections": 1, "void cells": .3, "no cells": .2, "function NAME doc AT cells": 0, "function NAME doc OUTDOOR AT cells": .3, "opening NAME doc WIDE size HIGH size opening_parts": 0,
     "flight NAME doc WIDE size RISE size DOTS size going turn winders": .2, "face cells relation cells EQUAL kinds": 2.5,
     "face cells OUTSIDE outside_side EQUAL kinds": 1, "tile NAME doc FOR names OPEN_BRACE tile_parts CLOSE_BRACE": .8, "allow_word names": .2,
     "material NAME STRING price FOR names material_where": .8, "way size": .4, "way size FOR names": .2, "headroom size": .2, "guard size": .1,
@@ -93,6 +94,7 @@ CONTEXTS.update({
     "form_clause: section NAME EQUAL shapes": lambda maker, place: chosen_section(maker, place),
     "form_clause: void cells": cells(1, kind="place"), "form_clause: no cells": cells(1, kind="place"),
     "form_clause: function NAME doc AT cells": joined(fresh("K"), cells(4, kind="place")),
+    "form_clause: function NAME doc OUTDOOR AT cells": joined(fresh("K"), cells(5, kind="place")),
     "form_clause: opening NAME doc WIDE size HIGH size opening_parts": fresh("door", _4="wide", _6="high"),
     "form_clause: flight NAME doc WIDE size RISE size DOTS size going turn winders": fresh("ladder", _4="flight", _6="low", _8="rise", _9="going", _10="turn"),
     "form_clause: face cells relation cells EQUAL kinds": lambda maker, place: face_between(maker, place),

@@ -17,6 +17,8 @@ class PlanKind(Kind):
         "file: ONE_SETTING setting": "the command line's, not a file's",
         "file: items": "the start is `items`",
         **dict.fromkeys(plans.OF_LIBRARIES, "what trays there are is known once plans are counted: plan.rows makes such files"),
+        **dict.fromkeys(["form_clause: thickness size OPEN_BRACE CLOSE_BRACE", "form_clause: thickness size OPEN_BRACE layers CLOSE_BRACE", "layers: layer",
+                         "layers: layers COMMA layer", "layer: NAME size", "thickness: WALL OUTSIDE", "thickness: WALL NAME"], "layers add up to a thickness: house.layers makes such forms"),
         "value: NUMBER doc role": "taken by the grammar in order to say that a number has no unit",
     }
 

@@ -46,7 +46,7 @@ MESHES = [
     ("grow", "square.hemls", {"format": "glb", "groups": True}, "glb", ["grow", "--groups"]),
     ("place", "gatehouse.kit", {"formats": ["glb"], "seed": 2}, "glb", ["place", "--seed", "2"]),
     ("place", "gatehouse.kit", {"formats": ["ldr", "stl", "3mf"]}, "stl", ["place"]),
-    ("house", "cottage.plan", {"house": "#10:1", "files": ["glb"]}, "glb", ["house", "#10:1"]),
+    ("house", "cottage.plan", {"house": "#541:77", "files": ["glb"]}, "glb", ["house", "#541:77"]),
 ]
 wrong = []
 
