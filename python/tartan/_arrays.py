@@ -6,7 +6,7 @@ from tartan._tartan import ffi
 try:
     import numpy
 except ImportError:  # everything works without it
-    numpy = None
+    numpy = None  # type: ignore[assignment]
 
 SIZE = "Q" if ffi.sizeof("size_t") == 8 else "L"
 _NUMPY = {"I": "uint32", SIZE: "uintp", "B": "uint8", "d": "float64", "Q": "uint64"}

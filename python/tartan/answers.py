@@ -17,6 +17,8 @@ QUESTIONS = {name: doc for name, (_, _, doc) in _requests.QUESTIONS.items()}
 class Answer:
     """A message of an answer. Its members are attributes; dict(answer) has those that are there."""
 
+    diagnostics: list  #: what was said besides, of an answer as a whole
+
     def __init__(self, message, members):
         self._message = message
         self._members = members
@@ -62,7 +64,7 @@ def _members_of(message):
     return found
 
 
-_KNOWN = {}
+_KNOWN: dict = {}
 _PLAIN = {"big": int, "exact": Fraction, "exacts": lambda items: [Fraction(item) for item in items],
           "bytes": base64.b64decode}
 

@@ -1,9 +1,13 @@
 """Grammars through which genomes are mapped, and the evolution of sentences by a fitness of one's own."""
+from __future__ import annotations
+
 import threading
 from dataclasses import dataclass
+from typing import Any, List, Optional, Sequence, Union
 
 from tartan._call import Watch, call, failure, lib, made, own, said, text
 from tartan._tartan import ffi
+from tartan._types import Progress
 from tartan.errors import Error
 
 __all__ = ["Evolution", "Generation", "Grammar", "Individual", "Mapping"]
@@ -30,7 +34,8 @@ class Grammar:
         self._mapper = made("tartan_mapper", lib.tartan_mapper_free, [self._handle], lib.tartan_mapper_new, self._handle)
         self._lock = threading.Lock()
 
-    def map(self, codons, *, wraps=None, max_depth=None, max_steps=None):
+    def map(self, codons: Sequence[int], *, wraps: Optional[int] = None, max_depth=None,
+            max_steps: Optional[int] = None) -> Mapping:
         """What a genome, a list of whole numbers, is mapped to."""
         options = ffi.new("tartan_map_options *", lib.tartan_map_options_init())
         call(lib.tartan_map_options_of, self._handle, options)
@@ -43,7 +48,7 @@ class Grammar:
             return Mapping(found.valid, _sentence(found.sentence, found.sentence_size), text(found.reason_text),
                            found.used, found.depth, found.wraps)
 
-    def invert(self, sentence, max_depth=0, progress=None):
+    def invert(self, sentence: str, max_depth=0, progress: Progress = None) -> List[int]:
         """A genome that is mapped to the sentence."""
         encoded, room, count = sentence.encode(), ffi.new("uint64_t **"), ffi.new("size_t *")
         call(lib.tartan_invert, self._handle, encoded, len(encoded), max_depth, Watch(progress), room, count)
@@ -52,7 +57,7 @@ class Grammar:
         finally:
             lib.tartan_bytes_free(room[0])
 
-    def derivations(self, depth):
+    def derivations(self, depth: int) -> int:
         """How many derivations there are of at most `depth` levels; or, if the grammar has loops, of exactly so many
         codons."""
         return int(said(lib.tartan_grammar_derivations, self._handle, depth, ffi.new("bool *")))
@@ -115,12 +120,12 @@ class Evolution:
     must depend on the sentences alone.
     """
 
-    def __init__(self, file, *, population=0, seed=1, objectives=1, generations=None, seeds=(), **options):
+    def __init__(self, file, *, population=0, seed: int = 1, objectives=1, generations=None, seeds=(), **options: Any) -> None:
         self.file = file
         self.objectives = objectives
         self.generations = generations
-        self._scores = {}
-        self._asked = []
+        self._scores: dict = {}
+        self._asked: list = []
         settings = ffi.new("tartan_evolution_options *", lib.tartan_evolution_options_init())
         if lib.tartan_module_has_study(file._module):
             call(lib.tartan_evolution_options_of, file._module, settings)
@@ -185,22 +190,22 @@ class Evolution:
             self._scores[sentence] = numbers
 
     @property
-    def done(self):
+    def done(self) -> int:
         """How many generations have been made."""
         return lib.tartan_evolution_done(self._handle)
 
     @property
-    def members(self):
+    def members(self) -> List[Individual]:
         """The newest generation, the best first."""
         return [self._member(i) for i in range(lib.tartan_evolution_members(self._handle))]
 
     @property
-    def best(self):
+    def best(self) -> Optional[Individual]:
         """The best member; None before the first generation."""
         return self._member(0) if lib.tartan_evolution_members(self._handle) else None
 
     @property
-    def front(self):
+    def front(self) -> List[Individual]:
         """With several objectives: the members that no other is better than in all."""
         return [self._member(i) for i in range(lib.tartan_evolution_front(self._handle))]
 
@@ -212,11 +217,11 @@ class Evolution:
                           _sentence(found.sentence, found.sentence_size), found.depth,
                           tuple(found.objectives[0:self.objectives]))
 
-    def choose(self, places):
+    def choose(self, places: Sequence[int]) -> None:
         """The parents of the next generation, as a person chose them: places of members."""
         call(lib.tartan_evolution_choose, self._handle, ffi.new("uint32_t[]", list(places)), len(places))
 
-    def save(self):
+    def save(self) -> bytes:
         """The run so far, as bytes."""
         room, size = ffi.new("void **"), ffi.new("size_t *")
         call(lib.tartan_evolution_save, self._handle, room, size)

@@ -1,21 +1,33 @@
 """Rule files: compiled, tested, asked."""
+from __future__ import annotations
+
 import collections.abc
 import json
 import os
 import threading
 from dataclasses import dataclass
-from typing import Optional
+from typing import Any, Dict, List, Optional, TYPE_CHECKING
 
 from tartan import _html, answers
 from tartan._call import Report, Watch, call, lib, made, name, path as path_for_call, taken, text, texts
 from tartan._tartan import ffi
+from tartan._types import Path, Progress
 from tartan.errors import Error
 from tartan.libraries import Library, Rule
+
+if TYPE_CHECKING:
+    from tartan.answers import Answer
+    from tartan.errors import Diagnostic
+    from tartan.evolution import Grammar
+    from tartan.houses import HouseLibrary
+    from tartan.meshes import Mesh
+    from tartan.models import Model
+    from tartan.surfaces import Surface
 
 __all__ = ["File", "Test", "Tests", "stdlib"]
 
 
-def stdlib():
+def stdlib() -> Dict[str, str]:
     """The files of the standard library: their texts by their names."""
     return {text(lib.tartan_stdlib_name(i)): _stdlib_text(text(lib.tartan_stdlib_name(i)))
             for i in range(lib.tartan_stdlib_count())}
@@ -40,19 +52,21 @@ class File:
     `diagnostics` here.
     """
 
-    def __init__(self, path=None, *, text=None, name=None, set=None, folders=(), warnings_are_errors=False,
-                 progress=None):
+    def __init__(self, path: Optional[Path] = None, *, text=None, name: Optional[str] = None, set=None, folders=(),
+                 warnings_are_errors=False, progress: Progress = None) -> None:
         if (path is None) == (text is None):
             raise TypeError("a file is given by its path, or as a text")
         self.path = None if path is None else os.fspath(path)
-        if text is None and not os.path.exists(self.path):
+        if self.path is not None and not os.path.exists(self.path):
             name, text = _from_stdlib(os.fsdecode(self.path))
         self.name = name or self.path or "text.plan"
         self.text = text
         self._params = [f"{param}={value}" for param, value in (set or {}).items()]
         self._folders = [os.fsdecode(folder) for folder in folders]
         self._strict = warnings_are_errors
-        self._session = self._source = self._shown = None
+        self._session: Any = None
+        self._source: Any = None
+        self._shown: Any = None
         self._lock = threading.RLock()
         report = Report()
         self._module = self._compiled("tartan_module", lib.tartan_module_free, report, progress,
@@ -106,22 +120,22 @@ class File:
         return {of: text(doc(self._module, i)) or None for i, of in enumerate(self._listed(kind))}
 
     @property
-    def libraries(self):
+    def libraries(self) -> List[str]:
         """The names of its libraries of plans, those of files that it uses first."""
         return self._listed("library")
 
     @property
-    def house_libraries(self):
+    def house_libraries(self) -> List[str]:
         """The names of its libraries of houses."""
         return self._listed("house_library")
 
     @property
-    def surfaces(self):
+    def surfaces(self) -> List[str]:
         """The names of its implicit surfaces."""
         return self._listed("surface")
 
     @property
-    def shown(self):
+    def shown(self) -> Answer:
         """All that it has, as the question `schema` answers."""
         if self._shown is None:
             self._shown = self.ask("schema")
@@ -136,7 +150,7 @@ class File:
         raise Error(f"{self.name}: {said}", help=f"those of files that it uses are {', '.join(names)}" if names and
                     not own else None)
 
-    def library(self, name=None, progress=None):
+    def library(self, name: Optional[str] = None, progress: Progress = None) -> Library:
         """A library of plans, by its name; without one, its only one."""
         return Library(self, name if name is not None else self._own_library("library", self.libraries), progress=progress)
 
@@ -145,7 +159,7 @@ class File:
         own = [found.name for found in self.shown.libraries if (found.plans is not None) == (kind == "house_library")]
         return self._only("library of houses" if kind == "house_library" else "library", None, names, own)
 
-    def houses(self, name=None, progress=None):
+    def houses(self, name: Optional[str] = None, progress: Progress = None) -> HouseLibrary:
         """A library of houses, by its name; without one, its only one."""
         from tartan.houses import HouseLibrary
         of = name if name is not None else self._own_library("house_library", self.house_libraries)
@@ -153,7 +167,7 @@ class File:
 
     # ---- asking
 
-    def ask(self, question, *, progress=None, **request):
+    def ask(self, question: str, *, progress: Progress = None, **request: Any) -> Any:
         """The answer to any question that `tartan` can be asked (tartan.QUESTIONS), as the page on requests lists them:
         file.ask("count", library="cabins", by="area"). What is said besides is in the answer's `diagnostics`."""
         if question not in answers.QUESTIONS:
@@ -179,7 +193,7 @@ class File:
                                            lib.tartan_session_open)
         return self._session
 
-    def test(self, progress=None):
+    def test(self, progress: Progress = None) -> Tests:
         """Runs its test blocks."""
         with self._lock:
             if self._source is None:
@@ -189,37 +203,37 @@ class File:
                          Watch(progress))
             return Tests([_test(tests, i) for i in range(lib.tartan_tests_count(tests))])
 
-    def check(self, progress=None):
+    def check(self, progress: Progress = None) -> List[Diagnostic]:
         """What its rules mean that is probably not meant: Diagnostics."""
         return self.ask("check", progress=progress).diagnostics
 
-    def format(self):
+    def format(self) -> str:
         """Its text in the canonical layout."""
         return self.ask("format").text
 
-    def report(self, library=None, progress=None):
+    def report(self, library: Optional[str] = None, progress: Progress = None) -> str:
         """A library as one HTML page that needs nothing else."""
         request = {} if library is None else {"library": library}
         return self.ask("report", progress=progress, **request).files[0].text
 
     # ---- what its notation makes
 
-    def surface(self, *, progress=None, **options):
+    def surface(self, *, progress: Progress = None, **options: Any) -> Surface:
         """A surface that grows, as a seed; see Surface."""
         from tartan.surfaces import Surface
         return Surface(self, **options)
 
-    def mesh(self, surface=None, *, progress=None, **options):
+    def mesh(self, surface: Optional[str] = None, *, progress: Progress = None, **options: Any) -> Mesh:
         """The mesh of an implicit surface; see tartan.meshes.field."""
         from tartan import meshes
         return meshes.field(self, surface, progress, **options)
 
-    def place(self, *, progress=None, **options):
+    def place(self, *, progress: Progress = None, **options: Any) -> Model:
         """A model of parts, placed; see tartan.models.Model."""
         from tartan.models import Model
         return Model(self, progress, **options)
 
-    def grammar(self):
+    def grammar(self) -> Grammar:
         """Its grammar, through which genomes are mapped; see tartan.evolution.Grammar."""
         from tartan.evolution import Grammar
         return Grammar(self)
@@ -239,7 +253,7 @@ class Rules(collections.abc.Mapping):
     def __init__(self, file):
         self._file = file
         self._docs = file._docs("rule")
-        self._made = {}
+        self._made: dict = {}
 
     def __getitem__(self, of):
         if of not in self._docs:

@@ -1,15 +1,22 @@
 """Libraries of houses: counted, numbered, drawn at random; and houses as rooms, meshes and files."""
+from __future__ import annotations
+
 import collections.abc
 import json
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Union
 
 from tartan._call import Watch, call, file, lib, made, name, own, said, text, word
 from tartan._tartan import ffi
+from tartan._types import Path, PlanLike, Progress
 from tartan.errors import Error
 from tartan.libraries import Distribution, wishes
 from tartan.meshes import Mesh, write
 from tartan.plans import Plan, Schema
+
+if TYPE_CHECKING:
+    from tartan.answers import Answer
 
 __all__ = ["Change", "House", "HouseLibrary", "Room"]
 
@@ -34,7 +41,7 @@ class HouseLibrary:
         self.doc = file_._docs("house_library").get(self.name)
         self.schema = Schema(lib.tartan_house_library_schema(self._handle), self._handle)
 
-    def ask(self, question, *, progress=None, **request):
+    def ask(self, question: str, *, progress: Progress = None, **request: Any) -> Any:
         """The answer to a question about this library: see File.ask."""
         return self.file.ask(question, library=self.name, progress=progress, **request)
 
@@ -45,7 +52,7 @@ class HouseLibrary:
         numbers = ffi.new("uint32_t[]", self.schema.plan(plan).numbers)
         return ffi.new("tartan_on_plan *", {"trays": numbers, "length": len(numbers)}), numbers
 
-    def count(self, length=None, plan=None, progress=None):
+    def count(self, length: Optional[int] = None, plan: Optional[PlanLike] = None, progress: Progress = None) -> int:
         """How many houses it keeps: on all plans, on those of so many trays, or on one."""
         if plan is not None:
             on, _kept = self._on(plan)
@@ -69,23 +76,23 @@ class HouseLibrary:
         except Error as error:
             raise (IndexError(str(error)) if error.kind == "invalid" else error) from None
 
-    def unrank(self, number, progress=None):
+    def unrank(self, number: Union[int, str], progress: Progress = None) -> House:
         """The house of a rank ("5") or a number ("12:3")."""
         return House(self, made("tartan_house", lib.tartan_house_free, [self._handle], lib.tartan_house_unrank,
                                 self._handle, name(str(number)), Watch(progress)))
 
-    def house(self, line):
+    def house(self, line: str) -> House:
         """The house of a line, any house of the form; if values are left out, the first that has what is typed."""
         encoded = line.encode()
         return House(self, made("tartan_house", lib.tartan_house_free, [self._handle], lib.tartan_house_read,
                                 self._handle, encoded, len(encoded)))
 
-    def sample(self, count, seed=0, plan=None, progress=None):
+    def sample(self, count: int, seed: int = 0, plan: Optional[PlanLike] = None, progress: Progress = None) -> List[House]:
         """So many different houses drawn uniformly, in the order of their ranks; all of them if there are fewer."""
         on, _kept = self._on(plan)
         return self._list(lib.tartan_house_sample, self._handle, on, seed, count, Watch(progress))
 
-    def best(self, count=10, *, plan=None, progress=None, **by):
+    def best(self, count: int = 10, *, plan: Optional[PlanLike] = None, progress: Progress = None, **by: Any) -> List[House]:
         """The best houses: least="cost", then_most="daylight", in the order of the arguments; then by rank."""
         on, _kept = self._on(plan)
         asked = wishes(by)
@@ -97,11 +104,11 @@ class HouseLibrary:
         houses = made("tartan_houses", lib.tartan_houses_free, [self._handle], function, *arguments)
         return [House._listed(self, houses, i) for i in range(lib.tartan_houses_count(houses))]
 
-    def unit(self, measure):
+    def unit(self, measure: str) -> Optional[str]:
         """The unit of a measure of its houses or plans; None if it has none of that name."""
         return text(lib.tartan_house_library_unit(self._handle, word(measure)))
 
-    def distribution(self, measure, plan=None, progress=None):
+    def distribution(self, measure: str, plan: Optional[PlanLike] = None, progress: Progress = None) -> Distribution:
         """How its houses, or those on a plan, are spread over the values of a measure."""
         request = {} if plan is None else {"plan": str(self.schema.plan(plan))}
         return Distribution(self, self.ask("count", by=measure, values=True, progress=progress, **request), plan)
@@ -156,35 +163,36 @@ class House:
         return cls(library, own(lib.tartan_houses_house(houses, i), lambda _: None, houses), values or None, changed)
 
     @property
-    def plan(self):
+    def plan(self) -> Plan:
         length = ffi.new("size_t *")
         trays = lib.tartan_house_plan(self._handle, length)
         return Plan(self.library.schema, trays[0:length[0]])
 
     @property
-    def number(self):
+    def number(self) -> str:
         """Its number, "12:3": the rank of its plan, and its place on that plan."""
         return said(lib.tartan_house_number, self._handle, Watch())
 
-    def rank(self, progress=None):
+    def rank(self, progress: Progress = None) -> int:
         """Its rank among all houses of the library."""
         return int(said(lib.tartan_house_rank, self._handle, Watch(progress)))
 
-    def variants(self, cell=None, progress=None):
+    def variants(self, cell: Optional[str] = None, progress: Progress = None) -> List[House]:
         """What else it could be: each other value of one choice with which the library still keeps it; of a cell
         ("2.body.ground", trays from 1) only what is about it."""
         return self.library._list(lib.tartan_house_variants, self._handle, name(cell), Watch(progress))
 
-    def explain(self, progress=None):
+    def explain(self, progress: Progress = None) -> Answer:
         """Why its library keeps it, or drops it."""
         return self.library.ask("explain", house=str(self), progress=progress)
 
-    def mesh(self, progress=None):
+    def mesh(self, progress: Progress = None) -> Mesh:
         """The boundary of all that it is built of: metres, z up; its groups are kinds of parts and materials."""
         return Mesh(made("tartan_mesh", lib.tartan_mesh_free, [], lib.tartan_house_mesh, self._handle, Watch(progress)))
 
-    def file(self, format, *, title=None, views=(), cut=None, bare=False, azimuth=None, elevation=None, scale=0, dpi=0,
-             progress=None):
+    def file(self, format: str, *, title: Optional[str] = None, views: Sequence[str] = (), cut: Optional[str] = None,
+             bare: bool = False, azimuth: Optional[float] = None, elevation: Optional[float] = None, scale: int = 0,
+             dpi: int = 0, progress: Progress = None) -> bytes:
         """The house as a file in memory: json, rooms, parts (CSV), obj, ply, glb, ifc, dxf, svg, png or pdf. views:
         "plan:STOREY", "section:x=LENGTH", "elevation:SIDE", "axonometric", "sheet"."""
         if format not in FORMATS:
@@ -200,17 +208,17 @@ class House:
             drawing.elevation = 30 if elevation is None else elevation
         return file(lib.tartan_house_file, self._handle, FORMATS[format], drawing, Watch(progress))
 
-    def write(self, path, **how):
+    def write(self, path: Path, **how: Any) -> None:
         """Writes a file whose name says the format; see file()."""
         write(path, lambda format: self.file(format, **how))
 
     @property
-    def data(self):
+    def data(self) -> Dict[str, Any]:
         """All that is known of it, as `tartan house --json` has it."""
         return json.loads(self.file("json"))
 
     @property
-    def rooms(self):
+    def rooms(self) -> List[Room]:
         """Its rooms."""
         return [Room(room["function"], room["cells"], Fraction(int(room["area"]), 10**18),
                      Fraction(int(room["net"]), 10**18)) for room in self.data["rooms"]]

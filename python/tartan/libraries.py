@@ -1,14 +1,21 @@
 """Libraries of plans: counted, ranked, sampled, measured and compared, without listing them."""
+from __future__ import annotations
+
 import collections.abc
 import operator
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import TYPE_CHECKING, Any, List, Optional, Sequence
 
 from tartan import _arrays, _html
 from tartan._call import Watch, call, lib, made, name, own, said, text, texts, word
 from tartan._tartan import ffi
+from tartan._types import Array, PlanLike, Progress
 from tartan.errors import Error
 from tartan.plans import Plan, Plans, Schema, batches, file_of
+
+if TYPE_CHECKING:
+    from tartan.answers import Answer
 
 __all__ = ["Clause", "Difference", "Distribution", "Front", "Library", "Rule", "Slice", "diff", "wishes"]
 
@@ -27,7 +34,7 @@ class Plain(collections.abc.Sequence):
         self.min_trays = lib.tartan_library_min_trays(handle)
         self.max_trays = lib.tartan_library_max_trays(handle)
 
-    def count(self, length=None):
+    def count(self, length: Optional[int] = None) -> int:
         """How many plans it keeps, of so many trays or of any."""
         return int(said(lib.tartan_library_count, self._handle, lib.TARTAN_ANY_LENGTH if length is None else length))
 
@@ -38,7 +45,7 @@ class Plain(collections.abc.Sequence):
         return self.count() > 0
 
     @property
-    def hash(self):
+    def hash(self) -> str:
         """The same for libraries of the same plans in the same order: 32 hexadecimal digits."""
         hexadecimal = ffi.new("char[33]")
         lib.tartan_library_hash(self._handle, hexadecimal)
@@ -67,26 +74,26 @@ class Plain(collections.abc.Sequence):
             return False
         return True
 
-    def rank(self, plan):
+    def rank(self, plan: PlanLike) -> int:
         """A plan's rank, from 0. One that the library does not keep is an Error."""
-        plan = self.schema.plan(plan)
-        return int(said(lib.tartan_library_rank, self._handle, plan.numbers, len(plan)))
+        trays = self.schema.plan(plan).numbers
+        return int(said(lib.tartan_library_rank, self._handle, trays, len(trays)))
 
-    def index(self, plan):
+    def index(self, plan: PlanLike, *_: Any) -> int:
         """The same as of any sequence: ValueError if the library does not keep the plan."""
         try:
             return self.rank(plan)
         except Error as error:
             raise ValueError(str(error)) from None
 
-    def sample(self, count, seed=0, length=None, progress=None):
+    def sample(self, count: int, seed: int = 0, length: Optional[int] = None, progress: Progress = None) -> Plans:
         """So many different plans drawn uniformly, in the order of their ranks: the same seed draws the same
         everywhere. All of them if there are fewer."""
         plans = made("tartan_plans", lib.tartan_plans_free, [self._handle], lib.tartan_library_sample, self._handle, seed,
                      lib.TARTAN_ANY_LENGTH if length is None else length, count)
         return Plans.taken(self, plans, progress)
 
-    def draw(self, format="svg", count=24, seed=0, **how):
+    def draw(self, format: str = "svg", count: int = 24, seed: int = 0, **how: Any) -> bytes:
         """A picture of plans drawn at random; see Plans.draw."""
         return self.sample(count, seed).draw(format, **how)
 
@@ -128,7 +135,7 @@ class Slice(collections.abc.Sequence):
                 yield Plan(self.library.schema, trays[begin:end], rank=rank)
                 begin, rank = end, rank + 1
 
-    def plans(self, progress=None):
+    def plans(self, progress: Progress = None) -> Plans:
         """All of them in memory, as Plans."""
         if self.ranks.step != 1:
             return Plans.of(self.library.schema, list(self), self.library)
@@ -171,7 +178,7 @@ class Library(Plain):
         self.name = name_
         self.doc = file._docs("library").get(name_)
 
-    def ask(self, question, *, progress=None, **request):
+    def ask(self, question: str, *, progress: Progress = None, **request: Any) -> Any:
         """The answer to a question about this library: see File.ask."""
         if self._trays is not None:
             request["trays"] = {"from": self._trays[0], "to": self._trays[1]}
@@ -179,22 +186,22 @@ class Library(Plain):
             request["where"] = list(self.wheres)
         return self.file.ask(question, library=self.name, progress=progress, **request)
 
-    def where(self, *requirements, progress=None):
+    def where(self, *requirements, progress: Progress = None) -> Library:
         """The library of those of its plans that meet these requirements too, in the words of the file."""
         return Library(self.file, self.name, (*self.wheres, *requirements), self._trays, progress)
 
-    def of_lengths(self, least, most, progress=None):
+    def of_lengths(self, least: int, most: int, progress: Progress = None) -> Library:
         """The library of plans of so many trays, instead of what the file says."""
         return Library(self.file, self.name, self.wheres, (least, most), progress)
 
-    def plan(self, line):
+    def plan(self, line: str) -> Plan:
         """The plan of a line."""
         return self.schema.read(line)
 
     # ---- its clauses
 
     @property
-    def clauses(self):
+    def clauses(self) -> list:
         """Its clauses, in file order, with what each does."""
         return [self._clause(i) for i in range(lib.tartan_library_clause_count(self._handle))]
 
@@ -205,14 +212,15 @@ class Library(Plain):
         return Clause(text(lib.tartan_library_clause_name(self._handle, i)),
                       lib.tartan_library_clause_prunes(self._handle, i), *counts)
 
-    def explain(self, plan, nearest=3, progress=None):
+    def explain(self, plan: PlanLike, nearest: int = 3, progress: Progress = None) -> Answer:
         """Why it keeps a plan, or drops it: what each clause says, a tree of parts with their places in the file; and of
         one that is dropped the `nearest` plans that it keeps."""
         return self.ask("explain", plan=str(self.schema.plan(plan)), nearest=nearest, progress=progress)
 
     # ---- drawing at random
 
-    def sample(self, count, seed=0, length=None, uniform=False, progress=None):
+    def sample(self, count: int, seed: int = 0, length: Optional[int] = None, progress: Progress = None,
+               uniform: bool = False) -> Plans:
         """So many different plans drawn at random, in the order of their ranks, the same for the same seed everywhere:
         each as likely as each, or by the library's weights if it has any and `uniform` does not say otherwise."""
         if uniform or not self._weighs():
@@ -227,41 +235,41 @@ class Library(Plain):
     # ---- measures
 
     @property
-    def measures(self):
+    def measures(self) -> List[str]:
         """The names of the measures that its plans have."""
         return [measure.name for measure in self.file.shown.measures if self.unit(measure.name) is not None]
 
-    def unit(self, measure):
+    def unit(self, measure: str) -> Optional[str]:
         """The unit of a measure's values: "m", "ft2", "" for numbers; None if the library has no such measure."""
         return text(lib.tartan_measure_unit(self._handle, word(measure)))
 
-    def measured(self, plans, measure, progress=None):
+    def measured(self, plans, measure: str, progress: Progress = None) -> Array:
         """The measure's values on plans, as an array; see Plans.measure."""
         values = _arrays.empty("d", len(plans))
         call(lib.tartan_measure_plans, self._handle, word(measure), *plans._for_calls(), Watch(progress),
              _arrays.pointer("d", values))
         return values
 
-    def measure(self, measure, plan):
+    def measure(self, measure: str, plan: PlanLike) -> Optional[Fraction]:
         """The value on one plan, exact: a Fraction; None if it has none."""
-        plan = self.schema.plan(plan)
-        value = said(lib.tartan_measure_plan, self._handle, word(measure), plan.numbers, len(plan))
+        trays = self.schema.plan(plan).numbers
+        value = said(lib.tartan_measure_plan, self._handle, word(measure), trays, len(trays))
         return None if value is None else Fraction(value)
 
-    def distribution(self, measure, progress=None):
+    def distribution(self, measure: str, progress: Progress = None) -> Distribution:
         """How its plans are spread over the values of a measure."""
         return Distribution(self, self.ask("count", by=measure, values=True, progress=progress))
 
-    def best(self, count=10, *, mirror=False, progress=None, **by):
+    def best(self, count: int = 10, *, mirror: bool = False, progress: Progress = None, **by: Any) -> List[Plan]:
         """The best plans: least="area", then_most="daylight", in the order of the arguments; then by rank."""
         found = self.ask("best", by=wishes(by), count=count, lines=True, mirror=mirror, progress=progress)
         return [_found(self.schema, plan) for plan in found.plans]
 
-    def front(self, *, progress=None, **by):
+    def front(self, *, progress: Progress = None, **by: Any) -> Front:
         """The best trade-offs of two or three measures: least="area", most="daylight"."""
         return Front(self.schema, self.ask("pareto", by=wishes(by), progress=progress))
 
-    def complete(self, pattern, progress=None, **by):
+    def complete(self, pattern: str, progress: Progress = None, **by: Any) -> Answer:
         """What completes an open plan ("8' public | ? | ..."): how many plans, and of each tray that is written, of each
         field, how many have which value there; with a wish (least="area") the best that each choice leaves."""
         request = {"by": wishes(by)} if by else {}
@@ -323,12 +331,12 @@ class Distribution:
     def __iter__(self):
         return zip(self.values, self.counts)
 
-    def to_pandas(self):
+    def to_pandas(self) -> Any:
         """A row a value. Counts past 64 bits stay Python's whole numbers."""
         import pandas
         return pandas.DataFrame({self.measure: [float(value) for value in self.values], "count": self.counts})
 
-    def draw(self, format="svg"):
+    def draw(self, format: str = "svg") -> bytes:
         """A histogram, as bytes."""
         request = {} if self.plan is None else {"plan": str(self.plan)}
         answer = self.library.ask("count", by=self.measure, picture=format, **request)
@@ -358,7 +366,7 @@ class Front(collections.abc.Sequence):
     def __getitem__(self, i):
         return self._plans[i]
 
-    def to_pandas(self):
+    def to_pandas(self) -> Any:
         """A row a trade-off."""
         import pandas
         rows = [[*map(float, plan.values), count, str(plan)] for plan, count in zip(self, self.counts)]
@@ -384,11 +392,11 @@ class Rule:
                             names, len(kept), Watch())
         self.schema = Schema(lib.tartan_rules_schema(self._handle), self._handle)
 
-    def match(self, plan):
+    def match(self, plan: PlanLike) -> bool:
         """Does it match the plan?"""
         return bool(self.match_all(Plans.of(self.schema, [plan]))[0])
 
-    def match_all(self, plans, threads=0, progress=None):
+    def match_all(self, plans, threads: int = 0, progress: Progress = None) -> Array:
         """Which of the plans it matches: an array of bools, with numpy; else of 0 and 1."""
         if not isinstance(plans, Plans):
             plans = Plans.of(self.schema, plans)
@@ -399,11 +407,11 @@ class Rule:
              Watch(progress))
         return matches.view("bool") if _arrays.numpy is not None else matches
 
-    def explain(self, plan, progress=None):
+    def explain(self, plan: PlanLike, progress: Progress = None) -> Answer:
         """Why it matches a plan, or does not: a tree of parts with their places in the file."""
         return self.file.ask("explain", plan=str(self.schema.plan(plan)), rules=[self.name], progress=progress)
 
-    def draw(self, format="svg"):
+    def draw(self, format: str = "svg") -> bytes:
         """Its picture, in the manner of the LaHave paper, as bytes."""
         return file_of(lib.tartan_rules_draw, format, self._handle)
 
@@ -441,7 +449,7 @@ class Difference:
         return Plain(own(function(self._handle), lambda _: None, self._handle), self._handle)
 
     @property
-    def clauses(self):
+    def clauses(self) -> list:
         return [self._clause(i) for i in range(lib.tartan_diff_clause_count(self._handle))]
 
     def _clause(self, i):
@@ -457,6 +465,6 @@ class Difference:
 _CHANGES = {lib.TARTAN_CHANGED: "changed", lib.TARTAN_ADDED: "added", lib.TARTAN_REMOVED: "removed"}
 
 
-def diff(before, after, progress=None):
+def diff(before, after, progress: Progress = None) -> Difference:
     """Compares two libraries of the same trays, perhaps of two files."""
     return Difference(before, after, progress)

@@ -1,9 +1,13 @@
 """Meshes: views of what the engines hold, and files of them."""
+from __future__ import annotations
+
 import os
+from typing import Any, List, Optional
 
 from tartan import _arrays
 from tartan._call import Watch, call, file, lib, made, name, own, path, text
 from tartan._tartan import ffi
+from tartan._types import Array, Path, Progress
 from tartan.errors import Error
 from tartan.plans import file_of
 
@@ -25,10 +29,11 @@ class Mesh:
         self.findings = None  # of an implicit surface: what was found on the way
 
     @classmethod
-    def of(cls, positions, faces):
+    def of(cls, positions, faces) -> Mesh:
         """A mesh of one's own: points, and of each face the numbers of its points."""
         coordinates = _arrays.of("d", [float(number) for point in positions for number in point])
-        starts, corners = [0], []
+        starts: list = [0]
+        corners: list = []
         for face in faces:
             corners.extend(int(corner) for corner in face)
             starts.append(len(corners))
@@ -42,7 +47,7 @@ class Mesh:
                         len(starts) - 1))
 
     @property
-    def positions(self):
+    def positions(self) -> Array:
         count = ffi.new("size_t *")
         start = lib.tartan_mesh_positions(self._handle, count)
         return _arrays.view("d", start, 3 * count[0], self._handle, 3)
@@ -53,17 +58,17 @@ class Mesh:
         return starts, corners[0], count[0]
 
     @property
-    def face_starts(self):
+    def face_starts(self) -> Array:
         starts, _, count = self._faces()
         return _arrays.view("I", starts, count + 1, self._handle)
 
     @property
-    def corners(self):
+    def corners(self) -> Array:
         starts, corners, count = self._faces()
         return _arrays.view("I", corners, starts[count] if count else 0, self._handle)
 
     @property
-    def faces(self):
+    def faces(self) -> Array:
         """With numpy: an array with a row a face. Error if faces have different numbers of corners."""
         starts, corners, count = self._faces()
         sides = starts[1] if count else 3
@@ -73,31 +78,31 @@ class Mesh:
         return _arrays.view("I", corners, sides * count, self._handle, sides)
 
     @property
-    def lines(self):
+    def lines(self) -> Array:
         """Pairs of vertices: the edges of the rules, if they were asked for."""
         count = ffi.new("size_t *")
         start = lib.tartan_mesh_lines(self._handle, count)
         return _arrays.view("I", start, 2 * count[0], self._handle, 2)
 
     @property
-    def groups(self):
+    def groups(self) -> List[str]:
         """The names of its groups, to which `face_groups` and `line_groups` are indices."""
         return [text(lib.tartan_mesh_group_name(self._handle, i))
                 for i in range(lib.tartan_mesh_group_count(self._handle))]
 
     @property
-    def face_groups(self):
+    def face_groups(self) -> Optional[Array]:
         return self._grouped(lib.tartan_mesh_face_groups(self._handle), self._faces()[2])
 
     @property
-    def line_groups(self):
+    def line_groups(self) -> Optional[Array]:
         return self._grouped(lib.tartan_mesh_line_groups(self._handle), len(self.lines) // (1 if _arrays.numpy else 2))
 
     def _grouped(self, start, count):
         return None if start == ffi.NULL else _arrays.view("I", start, count, self._handle)
 
     @property
-    def normals(self):
+    def normals(self) -> Array:
         """Unit normals of the vertices, weighted by area; zeros if there is none."""
         count = ffi.new("size_t *")
         lib.tartan_mesh_positions(self._handle, count)
@@ -116,24 +121,25 @@ class Mesh:
         call(function, copy, *arguments)
         return Mesh(copy)
 
-    def triangulated(self):
+    def triangulated(self) -> Mesh:
         return self._changed(lib.tartan_mesh_triangulate)
 
-    def smoothed(self, rounds=1):
+    def smoothed(self, rounds: int = 1) -> Mesh:
         """Vertices moved towards their neighbours, but for the outline."""
         return self._changed(lib.tartan_mesh_smooth, rounds)
 
-    def subdivided(self, rounds=1):
+    def subdivided(self, rounds: int = 1) -> Mesh:
         """Four faces of one in each round: Catmull-Clark, or Loop if all faces are triangles."""
         return self._changed(lib.tartan_mesh_subdivide, rounds)
 
-    def decimated(self, faces):
+    def decimated(self, faces) -> Mesh:
         """About so many triangles."""
         return self._changed(lib.tartan_mesh_decimate, faces)
 
     # ---- files
 
-    def file(self, format, *, note=None, normals=False, y_up=False, progress=None):
+    def file(self, format: str, *, note: Optional[str] = None, normals: bool = False, y_up: bool = False,
+             progress: Progress = None) -> bytes:
         """The mesh as a file in memory: obj, ply, glb, dxf, stl, off or om."""
         if format not in FORMATS:
             raise ValueError(f"meshes are {', '.join(FORMATS)}, not {format!r}")
@@ -142,7 +148,7 @@ class Mesh:
         style.note, style.normals, style.y_up = kept, normals, y_up
         return file(lib.tartan_mesh_write, self._handle, FORMATS[format], style, Watch(progress))
 
-    def write(self, path, **how):
+    def write(self, path: Path, **how: Any) -> None:
         """Writes a file whose name says the format; see file()."""
         write(path, lambda format: self.file(format, **how))
 
@@ -151,7 +157,9 @@ class Mesh:
         lib.tartan_mesh_positions(self._handle, count)
         return f"Mesh({count[0]:,} vertices, {self._faces()[2]:,} faces)"
 
-    def draw(self, format="png", *, title=None, caption=None, azimuth=None, elevation=None, width=0, dpi=0, progress=None):
+    def draw(self, format: str = "png", *, title: Optional[str] = None, caption: Optional[str] = None,
+             azimuth: Optional[float] = None, elevation: Optional[float] = None, width: float = 0, dpi: int = 0,
+             progress: Progress = None) -> bytes:
         """A picture of it, shaded, as bytes. azimuth, elevation: of the camera, in degrees."""
         drawing, _kept = drawing_of(title, caption, azimuth, elevation, width, dpi)
         return file_of(lib.tartan_mesh_draw, format, self._handle, drawing=drawing, progress=progress)
@@ -189,7 +197,7 @@ def write(path_, make):
         raise
 
 
-def read(path_):
+def read(path_) -> Mesh:
     """The mesh of an OBJ, PLY, STL, OFF or OM file."""
     return Mesh(made("tartan_mesh", lib.tartan_mesh_free, [], lib.tartan_mesh_read, path(path_)))
 
@@ -216,8 +224,9 @@ class Findings:
         return f"Findings({', '.join(f'{key}={value!r}' for key, value in self.__dict__.items())})"
 
 
-def field(of, surface=None, progress=None, *, grid=0, open=False, jumps_open=False, sharp=False, max_samples=0,
-          max_triangles=0, threads=0):
+def field(of, surface: Optional[str] = None, progress: Progress = None, *, grid: int = 0, open: bool = False,
+          jumps_open: bool = False, sharp: bool = False, max_samples: int = 0, max_triangles: int = 0,
+          threads: int = 0) -> Mesh:
     """The mesh of an implicit surface of a file; without a name of its last. grid: samples on the longest side of its
     box. open: ends at the box. jumps_open: is open where the field jumps. sharp: has sharp edges and corners."""
     options = ffi.new("tartan_field_options *", lib.tartan_field_options_init())

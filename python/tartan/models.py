@@ -1,8 +1,12 @@
 """Models of parts, placed by a connection grammar or by a kit's model."""
+from __future__ import annotations
+
 from dataclasses import dataclass
+from typing import Any, Dict, List
 
 from tartan._call import Watch, call, failure, lib, name, own, text
 from tartan._tartan import ffi
+from tartan._types import Path, Progress
 from tartan.meshes import write
 from tartan.surfaces import _fields
 
@@ -30,7 +34,7 @@ class Model:
     _LIMITS = {"max_parts": "part_limit", "max_steps": "step_limit", "max_frames": "frame_limit",
                "max_lookahead": "lookahead_limit", "max_models": "search_limit"}
 
-    def __init__(self, file, progress=None, *, model=None, seed=0, threads=0, **limits):
+    def __init__(self, file, progress: Progress = None, *, model=None, seed: int = 0, threads: int = 0, **limits: Any) -> None:
         self.file = file
         options = ffi.new("tartan_place_options *", lib.tartan_place_options_init())
         kept = name(model)
@@ -54,7 +58,7 @@ class Model:
         return handle
 
     @property
-    def parts(self):
+    def parts(self) -> List[Part]:
         count = ffi.new("size_t *")
         parts = lib.tartan_placement_parts(self._handle, count)
         return [Part(text(parts[i].name), tuple(parts[i].at), parts[i].heading, parts[i].colour)
@@ -66,7 +70,7 @@ class Model:
         return count[0]
 
     @property
-    def counts(self):
+    def counts(self) -> Dict[str, Any]:
         found = ffi.new("tartan_placement_counts *", lib.tartan_placement_counts_init())
         call(lib.tartan_placement_count, self._handle, found)
         return _fields(found, "tartan_placement_counts")
@@ -79,15 +83,15 @@ class Model:
         finally:
             lib.tartan_text_free(room[0])
 
-    def ldraw(self):
+    def ldraw(self) -> str:
         """The model as the text of an LDraw file."""
         return self._text(lib.tartan_placement_ldraw)
 
-    def list(self):
+    def list(self) -> str:
         """Its parts as CSV: part, colour, number; of a kit also title, mass and price."""
         return self._text(lib.tartan_placement_list)
 
-    def write(self, path):
+    def write(self, path: Path) -> None:
         """Writes an LDraw file (.ldr, .mpd, .dat) or the list of parts (.csv)."""
         write(path, self._file)
 

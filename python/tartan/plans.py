@@ -1,12 +1,16 @@
 """Plans: rows of trays, one by one and many at a time."""
+from __future__ import annotations
+
 import collections.abc
 import re
 from fractions import Fraction
 from functools import total_ordering
+from typing import Any, Iterable, List, Optional, Sequence, Union
 
 from tartan import _arrays, _html
 from tartan._call import Watch, call, file, lib, name, said, text
 from tartan._tartan import ffi
+from tartan._types import Array, PlanLike, Progress, RuleLike
 from tartan.errors import Error
 
 __all__ = ["Field", "Length", "Measures", "Plan", "Plans", "Schema", "Tray", "Zone"]
@@ -26,11 +30,11 @@ class Length:
         self.nanometres = nanometres
 
     @property
-    def metres(self):
+    def metres(self) -> float:
         return self.nanometres / 1e9
 
     @property
-    def feet(self):
+    def feet(self) -> float:
         return float(Fraction(self.nanometres, 304800000))
 
     def __eq__(self, other):
@@ -128,10 +132,10 @@ class Schema:
         return Field(field, tuple(values), tuple(spellings))
 
     @property
-    def tray_count(self):
+    def tray_count(self) -> int:
         return lib.tartan_schema_tray_count(self._handle)
 
-    def column(self, field):
+    def column(self, field) -> Array:
         """Which of its values each tray has in the i-th field: an array by tray numbers."""
         if field not in self._trays:
             values = _arrays.empty("I", self.tray_count)
@@ -139,14 +143,14 @@ class Schema:
             self._trays[field] = values
         return self._trays[field]
 
-    def read(self, line):
+    def read(self, line: str) -> Plan:
         """The plan of a line: "8' public | 12' open"."""
         encoded = line.encode()
         room, length = ffi.new("uint32_t[]", encoded.count(b"|") + 1), ffi.new("size_t *")
         call(lib.tartan_plan_read, self._handle, encoded, len(encoded), room, len(room), length)
         return Plan(self, room[0:length[0]])
 
-    def plan(self, plan):
+    def plan(self, plan: PlanLike) -> Plan:
         """The plan that is meant: a Plan, a line, or numbers of trays."""
         if isinstance(plan, Plan):
             if plan.schema is not self and not plan.schema.alike(self):
@@ -154,7 +158,7 @@ class Schema:
             return plan
         return self.read(plan) if isinstance(plan, str) else Plan(self, plan)
 
-    def alike(self, other):
+    def alike(self, other) -> bool:
         """Have both the same trays under the same numbers?"""
         return (self.name == other.name and self.tray_count == other.tray_count and
                 [(field.name, field.spellings) for field in self.fields] ==
@@ -190,7 +194,7 @@ class Tray:
     def __dir__(self):
         return [*super().__dir__(), *(field.attribute for field in self.schema.fields)]
 
-    def keys(self):
+    def keys(self) -> List[str]:
         return [field.name for field in self.schema.fields]
 
     def __eq__(self, other):
@@ -221,7 +225,7 @@ class Plan(collections.abc.Sequence):
         self.values = values
 
     @property
-    def trays(self):
+    def trays(self) -> List[Tray]:
         return [Tray(self.schema, number) for number in self.numbers]
 
     def __len__(self):
@@ -244,7 +248,7 @@ class Plan(collections.abc.Sequence):
     def __repr__(self):
         return f"Plan({str(self)!r})"
 
-    def draw(self, format="svg", **how):
+    def draw(self, format: str = "svg", **how: Any) -> bytes:
         """A picture of it, as Plans.draw."""
         return Plans.of(self.schema, [self]).draw(format, **how)
 
@@ -263,7 +267,7 @@ class Plans(collections.abc.Sequence):
         self.library = library
 
     @classmethod
-    def of(cls, schema, plans, library=None):
+    def of(cls, schema, plans, library=None) -> Plans:
         """Of plans one by one: Plan, lines, or numbers of trays."""
         plans = [schema.plan(plan) for plan in plans]
         ends, end = [], 0
@@ -274,7 +278,7 @@ class Plans(collections.abc.Sequence):
                    _arrays.of(_arrays.SIZE, ends), library)
 
     @classmethod
-    def taken(cls, library, plans, progress=None):
+    def taken(cls, library, plans, progress: Progress = None) -> Plans:
         """Of what a tartan_plans still holds."""
         parts = list(batches(library, plans, progress))
         trays = _arrays.joined("I", [part[0] for part in parts])
@@ -308,17 +312,16 @@ class Plans(collections.abc.Sequence):
             raise Error("these plans are of no library: ask the library about them")
         return self.library
 
-    def match(self, rule, progress=None):
+    def match(self, rule: RuleLike, progress: Progress = None) -> Array:
         """Which of them a rule matches, by its name or as a Rule: an array of bools."""
-        if isinstance(rule, str):
-            rule = self._library().file.rules[rule]
-        return rule.match_all(self, progress=progress)
+        ready = self._library().file.rules[rule] if isinstance(rule, str) else rule
+        return ready.match_all(self, progress=progress)
 
-    def measure(self, *names, progress=None):
+    def measure(self, *names, progress: Progress = None) -> Measures:
         """The values of measures of the library on each of them."""
         return Measures(self, {measure: self._library().measured(self, measure, progress) for measure in names})
 
-    def to_pandas(self):
+    def to_pandas(self) -> Any:
         """A row a tray: the plan's number among these, the tray's place in it, and its fields as categories."""
         import numpy
         import pandas
@@ -335,8 +338,9 @@ class Plans(collections.abc.Sequence):
         from tartan import _arrow
         return _arrow.stream(self)
 
-    def draw(self, format="svg", *, title=None, doc=None, captions=None, paper=None, scale=0, columns=0, dpi=0,
-             progress=None):
+    def draw(self, format: str = "svg", *, title: Optional[str] = None, doc: Optional[str] = None,
+             captions: Optional[Iterable[object]] = None, paper: Optional[str] = None, scale: int = 0,
+             columns: int = 0, dpi: int = 0, progress: Progress = None) -> bytes:
         """A picture of them, at most 5,000, as bytes of "svg", "png" or "pdf"."""
         drawing = ffi.new("tartan_plans_drawing *", lib.tartan_plans_drawing_init())
         kept = [name(title), name(doc), name(paper)]
@@ -380,7 +384,7 @@ class Measures(collections.abc.Mapping):
     def __len__(self):
         return len(self.columns)
 
-    def to_pandas(self):
+    def to_pandas(self) -> Any:
         """A row a plan."""
         import pandas
         return pandas.DataFrame(dict(self.columns))

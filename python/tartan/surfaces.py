@@ -1,9 +1,12 @@
 """Surfaces that grow among forces and boundaries."""
+from __future__ import annotations
+
 from dataclasses import dataclass
-from typing import Optional, Sequence
+from typing import Any, Dict, Optional, Sequence, Tuple
 
 from tartan._call import Watch, call, lib, made, text
 from tartan._tartan import ffi
+from tartan._types import Progress
 from tartan.meshes import READER, Mesh, drawing_of
 from tartan.plans import file_of
 
@@ -62,7 +65,7 @@ class Surface:
     these `forces` and `boundaries`.
     """
 
-    def __init__(self, file, *, forces=(), boundaries=(), **options):
+    def __init__(self, file, *, forces=(), boundaries=(), **options: Any) -> None:
         self.file = file
         settings = ffi.new("tartan_growth_options *", lib.tartan_growth_options_init())
         call(lib.tartan_growth_options_of, file._module, settings)
@@ -80,27 +83,27 @@ class Surface:
         self._handle = made("tartan_growth", lib.tartan_growth_free, [file._module], lib.tartan_growth_new, file._module,
                             settings)
 
-    def grow(self, steps=None, progress=None):
+    def grow(self, steps: Optional[int] = None, progress: Progress = None) -> Surface:
         """Grows to so many steps from the seed on; without a number to as many as the study says. Ctrl-C ends it: the
         surface is then that of the last whole step."""
         call(lib.tartan_growth_grow, self._handle, self.planned if steps is None else steps, Watch(progress))
         return self
 
-    def restart(self):
+    def restart(self) -> Surface:
         """The seed again."""
         call(lib.tartan_growth_restart, self._handle)
         return self
 
     @property
-    def steps(self):
+    def steps(self) -> int:
         return lib.tartan_growth_steps(self._handle)
 
     @property
-    def at_rest(self):
+    def at_rest(self) -> bool:
         """Did the last step leave everything as it was?"""
         return lib.tartan_growth_at_rest(self._handle)
 
-    def mesh(self, *, groups=False, lines=False, layers=False):
+    def mesh(self, *, groups: bool = False, lines: bool = False, layers: bool = False) -> Mesh:
         """The surface as a mesh: vertices in order of creation. groups: faces by label and age; lines: the edges of the
         rules, too; layers: lines are grouped by label alone."""
         options = ffi.new("tartan_mesh_options *", lib.tartan_mesh_options_init())
@@ -108,7 +111,7 @@ class Surface:
         return Mesh(made("tartan_mesh", lib.tartan_mesh_free, [], lib.tartan_growth_mesh, self._handle, options))
 
     @property
-    def measures(self):
+    def measures(self) -> Dict[str, Any]:
         """What it measures as it stands, by name."""
         found = ffi.new("tartan_measures *", lib.tartan_measures_init())
         call(lib.tartan_growth_measure, self._handle, found)
@@ -118,7 +121,7 @@ class Surface:
         return measures
 
     @property
-    def counts(self):
+    def counts(self) -> Dict[str, int]:
         """What the last step did; why branches did not join, if `explain` was asked for."""
         found = ffi.new("tartan_growth_counts *", lib.tartan_growth_counts_init())
         call(lib.tartan_growth_last_counts, self._handle, found)
@@ -129,28 +132,31 @@ class Surface:
                     self._handle)
 
     @property
-    def ages(self):
+    def ages(self) -> Dict[Tuple[int, int], int]:
         """How many edges there are, by label and age."""
         count, statistics = ffi.new("size_t *"), self._statistics()
         ages = lib.tartan_statistics_ages(statistics, count)
         return {(ages[i].label, ages[i].age): ages[i].count for i in range(count[0])}
 
     @property
-    def sides(self):
+    def sides(self) -> Dict[int, int]:
         """How many faces there are, by their number of sides."""
         count, statistics = ffi.new("size_t *"), self._statistics()
         sides = lib.tartan_statistics_sides(statistics, count)
         return {sides[i].sides: sides[i].count for i in range(count[0])}
 
     @property
-    def expressions(self):
+    def expressions(self) -> Dict[str, float]:
         """The values of the study's named fitness expressions; not finite if there is none."""
-        of, value, statistics, found = ffi.new("const char **"), ffi.new("double *"), self._statistics(), {}
+        of, value, statistics = ffi.new("const char **"), ffi.new("double *"), self._statistics()
+        found: Dict[str, float] = {}
         while lib.tartan_statistics_expression(statistics, len(found), of, value):
             found[text(of[0])] = value[0]
         return found
 
-    def draw(self, format="svg", *, title=None, caption=None, azimuth=None, elevation=None, width=0, dpi=0, progress=None):
+    def draw(self, format: str = "svg", *, title: Optional[str] = None, caption: Optional[str] = None,
+             azimuth: Optional[float] = None, elevation: Optional[float] = None, width: float = 0, dpi: int = 0,
+             progress: Progress = None) -> bytes:
         """A picture of it as it stands, as bytes. azimuth, elevation: of the camera, in degrees."""
         drawing, _kept = drawing_of(title, caption, azimuth, elevation, width, dpi)
         return file_of(lib.tartan_growth_draw, format, self._handle, drawing=drawing, progress=progress)
