@@ -49,7 +49,9 @@ if(TARGET python-tartan)
   list(APPEND CPACK_COMPONENTS_ALL python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-tartan)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "tartan (= ${PROJECT_VERSION}), python3 (>= 3.9), python3-cffi-backend")
+  # The extension module links libtartan, which comes with tartan, and the C library.
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS OFF)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "tartan (= ${PROJECT_VERSION}), python3 (>= 3.9), python3-cffi-backend, libc6")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-numpy, python3-pandas")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_GENERATE_SHLIBS OFF)
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The Python package tartan: rule files compiled, libraries of plans and houses counted, ranked, sampled and
