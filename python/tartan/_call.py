@@ -110,13 +110,50 @@ def call(function, *arguments):
         raise failure(error)
 
 
-def own(pointer, free, *kept):
-    """An object that is freed once nobody has it; `kept` stay as long."""
+#: What is alive of the interface, by its address: how many hold it, the object, what frees it, and what it was made of.
+_alive: dict = {}
 
-    def release(freed, kept=kept):
-        free(freed)
+
+def _address(pointer):
+    return int(ffi.cast("uintptr_t", pointer))
+
+
+def _let_go(address, alive=_alive):
+    """One holder less; the last one frees the object, and lets go of what it was made of. The order cannot come of Python's
+    references: its collector of cycles, and its end, clear them in any order."""
+    waiting = [address]
+    while waiting:
+        entry = alive.get(waiting.pop())
+        if entry is None:
+            continue
+        entry[0] -= 1
+        if entry[0] == 0:
+            _, pointer, where, free, parents, _ = entry
+            del alive[where]
+            free(pointer)
+            waiting.extend(parents)
+
+
+def own(pointer, free, *kept):
+    """An object that is freed once nobody has it; `kept`, objects of the interface or others, stay as long."""
+    where = _address(pointer)
+    if where in _alive:  # one that is borrowed, again
+        _alive[where][0] += 1
+    else:
+        parents = [_address(one) for one in kept if isinstance(one, ffi.CData) and _address(one) in _alive]
+        for parent in parents:
+            _alive[parent][0] += 1
+        _alive[where] = [1, pointer, where, free, parents, _kept_objects(kept)]
+
+    def release(_, where=where, let_go=_let_go):
+        let_go(where)
 
     return ffi.gc(pointer, release)
+
+
+def _kept_objects(kept):
+    """Those that are no objects of the interface, which Python keeps."""
+    return [one for one in kept if not isinstance(one, ffi.CData) or _address(one) not in _alive]
 
 
 def made(kind, free, kept, function, *arguments):
