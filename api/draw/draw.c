@@ -134,37 +134,48 @@ static tartan_status camera_of(const tartan_growth_drawing *drawing, tn_camera *
                                 "a camera's elevation lies between -90 and 90, and a width is up to 100,000 points");
 }
 
+/* A picture of something in space: how it is drawn, from where, and where it goes. */
+typedef struct space_picture {
+    tartan_growth_drawing drawing;
+    tn_camera camera;
+    tn_watch watch;
+    tn_picture to; /* which borrows the watch */
+} space_picture;
+
+static tartan_status begin_in_space(tartan_picture_format format, const tartan_growth_drawing *given,
+                                    const tartan_watch *waiting, space_picture *p, void **bytes, const size_t *size,
+                                    tartan_error *error)
+{
+    tartan_status status = TN_API_TAKE(tartan_growth_drawing, &p->drawing, given, error);
+    if (status == TARTAN_OK)
+        status = begin(format, p->drawing.dpi, waiting, &p->watch, &p->to, bytes, size, error);
+    return status == TARTAN_OK ? camera_of(&p->drawing, &p->camera, error) : status;
+}
+
 tartan_status tartan_growth_draw(tartan_growth *growth, tartan_picture_format format,
                                  const tartan_growth_drawing *given, const tartan_watch *waiting, void **bytes,
                                  size_t *size, tartan_error *error)
 {
-    tartan_growth_drawing drawing;
-    tn_camera camera;
-    tn_watch watch;
-    tn_picture to;
+    space_picture p;
     tn_view *view = NULL;
     tn_error found;
-    tartan_status status = TN_API_TAKE(tartan_growth_drawing, &drawing, given, error);
-    if (status == TARTAN_OK)
-        status = begin(format, drawing.dpi, waiting, &watch, &to, bytes, size, error);
-    if (status == TARTAN_OK)
-        status = camera_of(&drawing, &camera, error);
+    tartan_status status = begin_in_space(format, given, waiting, &p, bytes, size, error);
     if (status == TARTAN_OK)
         status = tn_api_growth_mend(growth, error);
     if (status != TARTAN_OK)
         return status;
-    const tn_view_options options = {.title = drawing.title ? drawing.title : growth->study.title,
-                                     .caption = drawing.caption,
-                                     .dpi = drawing.dpi,
+    const tn_view_options options = {.title = p.drawing.title ? p.drawing.title : growth->study.title,
+                                     .caption = p.drawing.caption,
+                                     .dpi = p.drawing.dpi,
                                      .legend = tn_growth_legend(growth->system)};
-    tn_growth_watch(growth->growth, &watch);
-    tn_status drawn = tn_growth_view(growth->growth, &camera, false, &view, &found);
+    tn_growth_watch(growth->growth, &p.watch);
+    tn_status drawn = tn_growth_view(growth->growth, &p.camera, false, &view, &found);
     tn_growth_watch(growth->growth, NULL);
     if (drawn == TN_OK) {
-        drawn = tn_views_draw(&view, 1, &options, &to, &found);
+        drawn = tn_views_draw(&view, 1, &options, &p.to, &found);
         tn_view_free(view);
     }
-    return finish(drawn, &found, &to, bytes, size, error);
+    return finish(drawn, &found, &p.to, bytes, size, error);
 }
 
 /* ---- meshes */
@@ -208,23 +219,19 @@ tartan_status tartan_mesh_draw(const tartan_mesh *mesh, tartan_picture_format fo
                                const tartan_growth_drawing *given, const tartan_watch *waiting, void **bytes,
                                size_t *size, tartan_error *error)
 {
-    tartan_growth_drawing drawing;
-    tn_camera camera;
-    tn_watch watch;
-    tn_picture to;
+    space_picture p;
     tn_error found;
     if (!mesh)
         return tn_api_missing(error, "mesh");
-    tartan_status status = TN_API_TAKE(tartan_growth_drawing, &drawing, given, error);
-    if (status == TARTAN_OK)
-        status = begin(format, drawing.dpi, waiting, &watch, &to, bytes, size, error);
-    if (status == TARTAN_OK)
-        status = camera_of(&drawing, &camera, error);
+    tartan_status status = begin_in_space(format, given, waiting, &p, bytes, size, error);
     if (status != TARTAN_OK)
         return status;
-    tn_mesh_picture picture = {
-        .camera = camera, .title = drawing.title, .caption = drawing.caption, .dpi = drawing.dpi, .watch = &watch};
-    return finish(api_mesh_draw(&mesh->mesh, &picture, &to, &found), &found, &to, bytes, size, error);
+    tn_mesh_picture picture = {.camera = p.camera,
+                               .title = p.drawing.title,
+                               .caption = p.drawing.caption,
+                               .dpi = p.drawing.dpi,
+                               .watch = &p.watch};
+    return finish(api_mesh_draw(&mesh->mesh, &picture, &p.to, &found), &found, &p.to, bytes, size, error);
 }
 
 /* ---- derivations */

@@ -86,13 +86,19 @@ static tn_status answer_row(tn_rows_of_plans *rows, const tn_rank_request *reque
     return say_why(rows->session, rows->ready, &row, tn_asked_length(&request->subject));
 }
 
-static tn_status rank_row(tn_session *session, const tn_rank_request *request, tn_reply *answer)
+/* The rows of plans of the library that is asked about. Close them in any case. */
+static tn_status open_rows(tn_session *session, const tn_library_asked *asked, tn_rows_of_plans *rows)
 {
     const tn_ready_library *ready;
-    tn_rows_of_plans rows = {0};
-    tn_status status = tn_session_library(session, &request->subject, &ready);
-    if (status == TN_OK)
-        status = tn_rows_open(&rows, session, ready, &request->subject);
+    *rows = (tn_rows_of_plans){0};
+    tn_status status = tn_session_library(session, asked, &ready);
+    return status == TN_OK ? tn_rows_open(rows, session, ready, asked) : status;
+}
+
+static tn_status rank_row(tn_session *session, const tn_rank_request *request, tn_reply *answer)
+{
+    tn_rows_of_plans rows;
+    tn_status status = open_rows(session, &request->subject, &rows);
     if (status == TN_OK)
         status = answer_row(&rows, request, answer);
     tn_rows_close(&rows);
@@ -237,11 +243,8 @@ static tn_status answer_row_of(tn_rows_of_plans *rows, const char *digits, tn_re
 
 static tn_status unrank_row(tn_session *session, const tn_unrank_request *request, tn_reply *answer)
 {
-    const tn_ready_library *ready;
-    tn_rows_of_plans rows = {0};
-    tn_status status = tn_session_library(session, &request->subject, &ready);
-    if (status == TN_OK)
-        status = tn_rows_open(&rows, session, ready, &request->subject);
+    tn_rows_of_plans rows;
+    tn_status status = open_rows(session, &request->subject, &rows);
     if (status == TN_OK)
         status = answer_row_of(&rows, request->rank, answer);
     tn_rows_close(&rows);

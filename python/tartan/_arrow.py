@@ -49,6 +49,14 @@ def _allocate(size):
     return ffi.cast("void *", lib.calloc(1, size))
 
 
+def _complete(structure, kept, children, dictionary):
+    """What schemas and arrays have alike: children of their own kind, a dictionary, and what is kept until their release."""
+    pointers = ffi.new(f"{ffi.typeof(structure).item.cname} *[]", list(children))
+    structure.n_children, structure.children = len(children), pointers if children else ffi.NULL
+    structure.dictionary = dictionary if dictionary is not None else ffi.NULL
+    _hold(structure, kept, pointers, children, dictionary)
+
+
 # ---- the schema
 
 def _schema(structure, format, name, children=(), dictionary=None):
@@ -56,15 +64,8 @@ def _schema(structure, format, name, children=(), dictionary=None):
     kept = [ffi.new("char[]", format.encode()), ffi.new("char[]", name.encode()), _private(structure)]
     structure.format, structure.name, structure.metadata = kept[0], kept[1], ffi.NULL
     structure.flags = 0
-    structure.n_children = len(children)
-    structure.children = ffi.NULL
-    if children:
-        pointers = ffi.new("struct ArrowSchema *[]", list(children))
-        structure.children = pointers
-        kept.append(pointers)
-    structure.dictionary = dictionary if dictionary is not None else ffi.NULL
     structure.release = lib.tartan_python_free_schema
-    _hold(structure, kept, children, dictionary)
+    _complete(structure, kept, children, dictionary)
 
 
 def _fill_schema(schema, out):
@@ -90,15 +91,8 @@ def _array(structure, length, buffers, children=(), dictionary=None):
     kept = [list(buffers), pointers, _private(structure)]
     structure.length, structure.null_count, structure.offset = length, 0, 0
     structure.n_buffers, structure.buffers = len(buffers), pointers
-    structure.n_children = len(children)
-    structure.children = ffi.NULL
-    if children:
-        array = ffi.new("struct ArrowArray *[]", list(children))
-        structure.children = array
-        kept.append(array)
-    structure.dictionary = dictionary if dictionary is not None else ffi.NULL
     structure.release = lib.tartan_python_free_array
-    _hold(structure, kept, children, dictionary)
+    _complete(structure, kept, children, dictionary)
 
 
 def _numbers(kind, numbers):

@@ -17,12 +17,38 @@ FORMATS = {"obj": lib.TARTAN_OBJ, "ply": lib.TARTAN_PLY, "glb": lib.TARTAN_GLB, 
            "stl": lib.TARTAN_STL, "off": lib.TARTAN_OFF, "om": lib.TARTAN_OM}
 
 
-class Mesh:
+class InSpace:
+    """What is drawn in space: by the function of the interface that it names, and in its format unless another is asked
+    for."""
+
+    _drawn_by: Any
+    _drawn_as: str
+    _handle: Any
+
+    def draw(self, format: Optional[str] = None, *, title: Optional[str] = None, caption: Optional[str] = None,
+             azimuth: Optional[float] = None, elevation: Optional[float] = None, width: float = 0, dpi: int = 0,
+             progress: Progress = None) -> bytes:
+        """A picture of it as it stands, shaded, as bytes of "svg", "png" or "pdf". azimuth, elevation: of the camera, in
+        degrees."""
+        drawing = ffi.new("tartan_growth_drawing *", lib.tartan_growth_drawing_init())
+        kept = [name(title), name(caption)]
+        drawing.title, drawing.caption = kept
+        if azimuth is not None or elevation is not None:
+            drawing.camera = True
+            drawing.azimuth = -60 if azimuth is None else azimuth
+            drawing.elevation = 30 if elevation is None else elevation
+        drawing.width, drawing.dpi = width, dpi
+        return file_of(self._drawn_by, format or self._drawn_as, self._handle, drawing=drawing, progress=progress)
+
+
+class Mesh(InSpace):
     """A mesh, which does not change. Its arrays look into the engine's memory, without a copy, and keep it alive.
 
     positions: x, y, z of each vertex, in rows. corners: the vertices of all faces, counter-clockwise seen from outside,
     one face after another; the i-th begins at face_starts[i]. faces: the same in rows, if all faces have as many.
     """
+
+    _drawn_by, _drawn_as = lib.tartan_mesh_draw, "png"
 
     def __init__(self, handle):
         self._handle = handle
@@ -157,28 +183,8 @@ class Mesh:
         lib.tartan_mesh_positions(self._handle, count)
         return f"Mesh({count[0]:,} vertices, {self._faces()[2]:,} faces)"
 
-    def draw(self, format: str = "png", *, title: Optional[str] = None, caption: Optional[str] = None,
-             azimuth: Optional[float] = None, elevation: Optional[float] = None, width: float = 0, dpi: int = 0,
-             progress: Progress = None) -> bytes:
-        """A picture of it, shaded, as bytes. azimuth, elevation: of the camera, in degrees."""
-        drawing, _kept = drawing_of(title, caption, azimuth, elevation, width, dpi)
-        return file_of(lib.tartan_mesh_draw, format, self._handle, drawing=drawing, progress=progress)
-
     def _repr_png_(self):
         return self.draw("png", dpi=96)
-
-
-def drawing_of(title, caption, azimuth, elevation, width, dpi):
-    """How a form is drawn, for a call, and what has to stay."""
-    drawing = ffi.new("tartan_growth_drawing *", lib.tartan_growth_drawing_init())
-    kept = [name(title), name(caption)]
-    drawing.title, drawing.caption = kept
-    if azimuth is not None or elevation is not None:
-        drawing.camera = True
-        drawing.azimuth = -60 if azimuth is None else azimuth
-        drawing.elevation = 30 if elevation is None else elevation
-    drawing.width, drawing.dpi = width, dpi
-    return drawing, kept
 
 
 def write(path_, make):

@@ -7,8 +7,7 @@ from typing import Any, Dict, Optional, Sequence, Tuple
 from tartan._call import Watch, call, lib, made, text
 from tartan._tartan import ffi
 from tartan._types import Progress
-from tartan.meshes import READER, Mesh, drawing_of
-from tartan.plans import file_of
+from tartan.meshes import READER, InSpace, Mesh
 
 __all__ = ["Boundary", "Force", "Surface"]
 
@@ -55,7 +54,7 @@ def _one_of(words, word, what):
     return words[word]
 
 
-class Surface:
+class Surface(InSpace):
     """A surface that grows: it begins as the seed, and every step enlarges it, moves it by its surroundings, rewrites
     its edges and joins their branches.
 
@@ -64,6 +63,8 @@ class Surface:
     bare (without the study's own forces and boundaries), seed (of weighted rules), max_edges, threads; and besides
     these `forces` and `boundaries`.
     """
+
+    _drawn_by, _drawn_as = lib.tartan_growth_draw, "svg"
 
     def __init__(self, file, *, forces=(), boundaries=(), **options: Any) -> None:
         self.file = file
@@ -153,13 +154,6 @@ class Surface:
         while lib.tartan_statistics_expression(statistics, len(found), of, value):
             found[text(of[0])] = value[0]
         return found
-
-    def draw(self, format: str = "svg", *, title: Optional[str] = None, caption: Optional[str] = None,
-             azimuth: Optional[float] = None, elevation: Optional[float] = None, width: float = 0, dpi: int = 0,
-             progress: Progress = None) -> bytes:
-        """A picture of it as it stands, as bytes. azimuth, elevation: of the camera, in degrees."""
-        drawing, _kept = drawing_of(title, caption, azimuth, elevation, width, dpi)
-        return file_of(lib.tartan_growth_draw, format, self._handle, drawing=drawing, progress=progress)
 
     def __repr__(self):
         return f"Surface({self.file.name!r}, {self.steps} steps)"

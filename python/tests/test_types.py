@@ -23,7 +23,7 @@ def public(path):
 
 
 class Types(unittest.TestCase):
-    INNER = {"drawing_of", "file_of", "batches", "wishes", "read"}  # what the modules share among themselves
+    INNER = {"file_of", "batches", "wishes", "read"}  # what the modules share among themselves
 
     def test_said(self):
         functions = {}
