@@ -4,6 +4,7 @@ watched and ended.
 cffi lets other threads run during each call. An object of the interface is freed once nobody has it, and those that it
 was made of after it: what frees it holds them.
 """
+import difflib
 import os
 
 from tartan._tartan import ffi, lib
@@ -55,6 +56,13 @@ def path(said):
     if b"\0" in encoded:
         raise ValueError("a path cannot hold a zero byte")
     return ffi.new("char[]", encoded)
+
+
+def no_option(what, option, known):
+    """That a keyword is none of those known: with the nearest, or all of them."""
+    near = difflib.get_close_matches(option, known, 1)
+    return TypeError(f"{what} has no option {option!r}; " +
+                     (f"did you mean {near[0]!r}?" if near else f"there are {', '.join(sorted(known))}"))
 
 
 def code_of(number):

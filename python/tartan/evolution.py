@@ -5,7 +5,7 @@ import threading
 from dataclasses import dataclass
 from typing import Any, List, Optional, Sequence, Union
 
-from tartan._call import Watch, call, failure, lib, made, own, said, text
+from tartan._call import Watch, call, failure, lib, made, no_option, own, said, text
 from tartan._tartan import ffi
 from tartan._types import Progress
 from tartan.errors import Error
@@ -150,8 +150,8 @@ class Evolution:
                 raise ValueError(f"{option} is {', '.join(_CHOICES[option])}, not {value!r}")
             value = _CHOICES[option][value]
         elif option not in _NUMBERS:
-            raise TypeError(f"an evolution has no option {option!r}; there are "
-                            f"{', '.join(sorted(_NUMBERS | set(_CHOICES)))}")
+            named = {"population", "seed", "objectives", "generations", "seeds"}
+            raise no_option("an evolution", option, _NUMBERS | set(_CHOICES) | named)
         setattr(settings, option, value)
 
     def __iter__(self):

@@ -4,7 +4,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Dict, List
 
-from tartan._call import Watch, call, failure, lib, name, own, text
+from tartan._call import Watch, call, failure, lib, name, no_option, own, text
 from tartan._tartan import ffi
 from tartan._types import Path, Progress
 from tartan.meshes import write
@@ -41,7 +41,7 @@ class Model:
         options.model, options.seed, options.threads = kept, seed, threads
         for limit, value in limits.items():
             if limit not in self._LIMITS:
-                raise TypeError(f"placing has no option {limit!r}; there are {', '.join(self._LIMITS)}")
+                raise no_option("placing", limit, {"model", "seed", "threads", *self._LIMITS})
             setattr(options, self._LIMITS[limit], value)
         self._handle = self._placed(file, options, Watch(progress))
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Dict, Optional, Sequence, Tuple
 
-from tartan._call import Watch, call, lib, made, text
+from tartan._call import Watch, call, lib, made, no_option, text
 from tartan._tartan import ffi
 from tartan._types import Progress
 from tartan.meshes import READER, InSpace, Mesh
@@ -74,7 +74,7 @@ class Surface(InSpace):
         for option, value in options.items():
             known = _NAMES.get(option, option)
             if known not in _OPTIONS:
-                raise TypeError(f"a surface has no option {option!r}; there are {', '.join(sorted(_OPTIONS | {'angle'}))}")
+                raise no_option("a surface", option, _OPTIONS | set(_NAMES) | {"forces", "boundaries"})
             setattr(settings, known, [value] * 3 if known == "scale" and not hasattr(value, "__len__") else value)
         settings.read_mesh = READER
         kept = ffi.new("tartan_force[]", [_force(force) for force in forces]) if forces else ffi.NULL

@@ -44,7 +44,7 @@ class Forms(unittest.TestCase):
         self.assertEqual(sum(surface.ages.values()), surface.measures["edges"])
         self.assertIn("<svg", surface._repr_svg_())
         self.assertEqual(surface.restart().steps, 0)
-        with self.assertRaises(TypeError):
+        with self.assertRaisesRegex(TypeError, "did you mean 'angle'"):
             tartan.File(path).surface(angel=3)
         with self.assertRaises(tartan.Error):
             surface.grow(4).grow(2)
@@ -157,7 +157,7 @@ class Forms(unittest.TestCase):
         with self.assertRaises(tartan.Error):
             for _ in tartan.Evolution(file, population=30, seed=1):
                 pass
-        with self.assertRaises(TypeError):
+        with self.assertRaisesRegex(TypeError, "did you mean 'population'"):
             tartan.Evolution(file, popluation=30)
         with self.assertRaises(ValueError):
             tartan.Evolution(file, selection="lottery")

@@ -304,7 +304,8 @@ tn_checked_schema *tn_check_schema_for(tn_check *check, size_t unit, const tn_as
                                  "several schemas are in scope here, and it is not clear which one is meant");
     tn_note(check->diagnostics, d, &other->ast->name->node.span, "schema `%s`", other->name);
     tn_note(check->diagnostics, d, &found->ast->name->node.span, "schema `%s`", found->name);
-    tn_help(check->diagnostics, d, "write `using %s` or `using %s` after the name, here and in each rule and library",
+    tn_help(check->diagnostics, d,
+            "write `using %s` or `using %s` behind the name and its text, here and in each rule and library",
             other->name, found->name);
     return NULL;
 }
