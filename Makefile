@@ -30,7 +30,7 @@ help:
 	@echo 'make python      build the Python package: two wheels (into build-python/), and python3-tartan with make package'
 	@echo 'make check-python  test that: its calls against the command, its wheels, its notebooks'
 	@echo 'make site        make the documentation as static pages, with the playground if make wasm made it (into build-site/)'
-	@echo 'make check-site  test that its links lead somewhere, and that the files to try pass'
+	@echo 'make check-site  test that its links lead somewhere, and that the files to try pass, in the playground too, if that is made'
 	@echo 'make lint        look over the sources with clang-tidy'
 	@echo 'make bench       print how fast it is here'
 	@echo 'make bench-place print how fast parts are placed, counted and drawn here'
@@ -123,10 +123,8 @@ site: build
 	@tools/install-packages tools/site-packages.txt
 	@tools/build-site build build-site build-wasm/site
 
-# Its links, its anchors, and the files that it opens in the playground.
 check-site: build
-	@tools/install-packages tools/site-packages.txt
-	@ctest --test-dir build --output-on-failure -R '^cli\.site$$' --no-tests=error
+	@tools/check-site build build-wasm/site $(SHARE)
 
 lint: build
 	@tools/lint build

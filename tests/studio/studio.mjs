@@ -44,7 +44,7 @@ export function freePort() {
   });
 }
 
-const TYPES = {".html": "text/html; charset=utf-8", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm"};
+export const TYPES = {".html": "text/html; charset=utf-8", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm"};
 
 // Serves the playground as any server of files does; the folder's texts are in the address.
 async function serveFiles(t, path) {
