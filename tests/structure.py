@@ -3,12 +3,15 @@
 
 The table of folders in docs/internals.md says which folder may include from which. This reads every #include and every tartan_folder() and
 fails on an arrow that the table does not list (what the rows of a .def file name counts as an arrow, too), on a circle of folders, of
-headers or of files, on a folder with too many files, on a type defined in two places, on a source file that does not say what it is, on
+headers or of files, on a folder with too many files, on what has strayed into the root, on a type defined in two places, on a source file that does not say what it is, on
 arrays that are grown by hand, and on headers that can't be included together. `--table` prints the rows that the includes ask for."""
 import collections, os, re, subprocess, sys, tempfile
 
 TOP = ("grammar", "compiler", "runtime", "driver", "ask", "api", "lsp", "studio", "cli", "mpi")
 FILES_MAX = 40
+# What stands at the root, besides the folders above: what a test or a trial wrote there is not kept.
+ROOT = set(""".ci .clang-format .clang-tidy .gitignore CHANGELOG.md CMakeLists.txt CMakePresets.json CONTRIBUTING.md LICENSE Makefile README.md bench
+cmake docs editors examples include packages.txt python stdlib tests tools wasm""".split())
 
 # What is still wrong. Each line goes when its reason does; an exception that is not needed any more fails too.
 ARROWS_UP = set()
@@ -223,6 +226,13 @@ def check_modules(root, files, defined):
             problems.append("a circle of files: " + ", ".join(sorted(circle)) + "; other folders include " + ", ".join(outside))
 
 
+def check_root(root):
+    """A checkout's own list of files, where there is one."""
+    done = subprocess.run(["git", "-C", root, "ls-files"], capture_output=True, text=True)
+    for name in sorted({line.split("/")[0] for line in done.stdout.splitlines()} - ROOT - set(TOP)):
+        problems.append("%s is no file or folder of the root: tests/structure.py lists these" % name)
+
+
 def check_sizes(files):
     for folder, count in collections.Counter(os.path.dirname(file) for file in files).items():
         if count > FILES_MAX:
@@ -287,6 +297,7 @@ def check_headers(root, files, compiler, flags):
 root, compiler = sys.argv[1], sys.argv[2]
 files = list(sources(root))
 check_arrows(root, files)
+check_root(root)
 check_sizes(files)
 check_names(root, files)
 check_openings(root, files)
