@@ -10,6 +10,7 @@
 #include "driver/plan/library.h"
 #include "runtime/house/house.h"
 #include "runtime/house/rank/rank.h"
+#include "runtime/plan/library/diverse.h"
 #include "runtime/plan/library/rank.h"
 #include "runtime/plan/measure/best.h"
 #include "runtime/plan/measure/moments.h"
@@ -87,6 +88,13 @@ static void wishes_clear(mpq_t values[TN_WEIGHED_MAX])
         mpq_clear(values[k]);
 }
 
+static tn_status refuse_many(tn_session *session, uint64_t wanted, unsigned most, const char *what)
+{
+    char text[80];
+    snprintf(text, sizeof text, "%" PRIu64, wanted);
+    return tn_session_refuse(session, NULL, "--diverse chooses at most %u %s, not %s", most, what, text);
+}
+
 char *tn_wish_text(const tn_wishes *wishes, uint32_t k, const mpq_t value)
 {
     tn_buffer text = {0};
@@ -145,25 +153,100 @@ static tn_status give_plan(searching *s, tn_finds *finds, uint32_t length, const
     return tn_finds_give(finds, &found, error);
 }
 
-static tn_status give_plans(searching *s, tn_finds *finds, tn_error *error)
+/* The next of the best plans that is asked for; the first takes longest. */
+static tn_status find_next(searching *s, bool first, uint32_t *length, int64_t *values, bool *found, tn_error *error)
 {
-    const tn_best_request *r = s->request;
-    uint64_t count = r->has_count ? r->count : TN_BEST_DEFAULT;
+    tn_status status;
+    if (first)
+        tn_session_begins(s->session, "looking for the best");
+    do
+        status = tn_best_next(s->best, s->trays, length, values, found, error);
+    while (status == TN_OK && *found && s->request->mirror &&
+           !tn_library_mirror_first(s->ready->library, s->trays, *length));
+    if (first)
+        tn_session_ends(s->session);
+    return status;
+}
+
+static tn_status give_plans(searching *s, uint64_t wanted, tn_finds *finds, tn_error *error)
+{
     bool found = true;
     tn_status status = TN_OK;
-    for (uint64_t given = 0; status == TN_OK && found && given < count;) {
+    for (uint64_t given = 0; status == TN_OK && found && given < wanted; given++) {
         int64_t values[TN_WEIGHED_MAX];
         uint32_t length;
-        if (given == 0) /* the first takes longest; from then on plans are given */
-            tn_session_begins(s->session, "looking for the best");
-        status = tn_best_next(s->best, s->trays, &length, values, &found, error);
-        if (given == 0)
-            tn_session_ends(s->session);
-        if (status != TN_OK || !found || (r->mirror && !tn_library_mirror_first(s->ready->library, s->trays, length)))
-            continue;
-        status = give_plan(s, finds, length, values, error);
-        given++;
+        status = find_next(s, given == 0, &length, values, &found, error);
+        if (status == TN_OK && found)
+            status = give_plan(s, finds, length, values, error);
     }
+    return status;
+}
+
+/* ---- plans that differ: of the best, as `sample --diverse` chooses among those that it draws */
+
+enum { DIVERSE_OF = 1000, DIVERSE_TIMES = 20 }; /* so many of the best are looked at, and for each one wanted */
+
+typedef struct best_pool {
+    tn_plan *plans;
+    int64_t (*values)[TN_WEIGHED_MAX];
+    size_t count, room;
+} best_pool;
+
+static tn_status pool_plan(best_pool *pool, const searching *s, uint32_t length, const int64_t *values, tn_error *error)
+{
+    tn_plan *plan = &pool->plans[pool->count];
+    *plan = (tn_plan){.trays = malloc(((size_t)length + 1) * sizeof *plan->trays), .length = length};
+    if (!plan->trays)
+        return tn_fail_memory(error);
+    memcpy(plan->trays, s->trays, length * sizeof *plan->trays);
+    memcpy(pool->values[pool->count++], values, sizeof *pool->values);
+    return TN_OK;
+}
+
+static tn_status fill_pool(best_pool *pool, searching *s, tn_error *error)
+{
+    bool found = true;
+    tn_status status = TN_OK;
+    while (status == TN_OK && found && pool->count < pool->room) {
+        int64_t values[TN_WEIGHED_MAX] = {0};
+        uint32_t length;
+        status = find_next(s, pool->count == 0, &length, values, &found, error);
+        if (status == TN_OK && found)
+            status = pool_plan(pool, s, length, values, error);
+    }
+    return status;
+}
+
+/* Those chosen are given in their order: the best first. */
+static tn_status give_chosen(const best_pool *pool, const bool *chosen, searching *s, tn_finds *finds, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < pool->count; i++) {
+        if (!chosen[i])
+            continue;
+        memcpy(s->trays, pool->plans[i].trays, pool->plans[i].length * sizeof *s->trays);
+        status = give_plan(s, finds, (uint32_t)pool->plans[i].length, pool->values[i], error);
+    }
+    return status;
+}
+
+static tn_status give_diverse(searching *s, uint64_t wanted, tn_finds *finds, tn_error *error)
+{
+    size_t count = (size_t)wanted, room = count * DIVERSE_TIMES > DIVERSE_OF ? count * DIVERSE_TIMES : DIVERSE_OF;
+    best_pool pool = {calloc(room, sizeof *pool.plans), calloc(room, sizeof *pool.values), 0, room};
+    bool *chosen = calloc(room, sizeof *chosen);
+    tn_status status = pool.plans && pool.values && chosen ? TN_OK : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = fill_pool(&pool, s, error);
+    if (status == TN_OK)
+        status = tn_plans_diverse(s->ready->schema, pool.plans, pool.count, count, chosen, error);
+    if (status == TN_OK)
+        status = give_chosen(&pool, chosen, s, finds, error);
+    for (size_t i = 0; i < pool.count; i++)
+        free(pool.plans[i].trays);
+    free(pool.plans);
+    free(pool.values);
+    free(chosen);
     return status;
 }
 
@@ -190,7 +273,10 @@ static tn_status take_wishes(searching *s)
 static tn_status best_plans(tn_session *session, const tn_best_request *request, tn_reply *answer)
 {
     searching s = {.session = session, .request = request};
+    uint64_t wanted = request->has_count ? request->count : TN_BEST_DEFAULT;
     tn_error error;
+    if (request->diverse && wanted > TN_DIVERSE_MAX)
+        return refuse_many(session, wanted, TN_DIVERSE_MAX, "plans");
     tn_status status = tn_session_library(session, &request->subject, &s.ready);
     if (status == TN_OK)
         status = take_wishes(&s);
@@ -203,7 +289,7 @@ static tn_status best_plans(tn_session *session, const tn_best_request *request,
     if (status == TN_OK)
         status = tn_finds_begin(&finds, &error);
     if (status == TN_OK && !finds.ended)
-        status = give_plans(&s, &finds, &error);
+        status = (request->diverse ? give_diverse : give_plans)(&s, wanted, &finds, &error);
     clear(&s);
     return tn_finds_end(&finds, status, &error);
 }
@@ -212,10 +298,6 @@ tn_status tn_ask_best(tn_session *session, const tn_best_request *request, tn_re
 {
     *answer = (tn_reply){0};
     bool houses = request->plan || tn_session_of_houses(session, &request->subject);
-    if (!houses && request->diverse)
-        return tn_session_refuse(session,
-                                 "name a library of houses with --library; `tartan sample --diverse` draws plans",
-                                 "--diverse is about the best houses, and plans are asked for");
     if (!houses)
         return best_plans(session, request, answer);
     return request->mirror ? tn_session_refuse(session, NULL, "--mirror is about plans, not about houses")
@@ -262,20 +344,13 @@ static tn_status find_values(tn_houses_search *s, tn_houses_aim aim, uint64_t wa
     return status;
 }
 
-static tn_status refuse_many(tn_session *session, uint64_t wanted)
-{
-    char text[80];
-    snprintf(text, sizeof text, "%" PRIu64, wanted);
-    return tn_session_refuse(session, NULL, "--diverse chooses at most %u houses, not %s", TN_DIVERSE_HOUSES_MAX, text);
-}
-
 tn_status tn_houses_search_begin(tn_houses_search *s, tn_session *session, const tn_house_asked *asked)
 {
     tn_error error;
     *s = (tn_houses_search){.wanted = asked->wanted, .diverse = asked->diverse, .reached = asked->wanted};
     mpz_init(s->count);
     if (asked->diverse && asked->wanted > TN_DIVERSE_HOUSES_MAX)
-        return refuse_many(session, asked->wanted);
+        return refuse_many(session, asked->wanted, TN_DIVERSE_HOUSES_MAX, "houses");
     tn_status status = wishes_take(session, asked->by, asked->by_count, asked->by_least, &s->found);
     if (status == TN_OK)
         status = tn_numbered_open_on(&s->n, session, asked->subject, asked->plan, &s->plan);

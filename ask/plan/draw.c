@@ -244,6 +244,7 @@ static tn_status find_best(sheet *s, tn_reply *found)
                                      .by = {r->by.items, r->by.count},
                                      .has_count = true,
                                      .count = r->best,
+                                     .diverse = r->diverse,
                                      .mirror = r->mirror};
     return tn_ask_best(s->session, &request, found);
 }
@@ -256,7 +257,9 @@ static tn_status note_found(sheet *s)
     tn_buffer text = {0};
     bool best = s->request->has_best, ok = digits != NULL;
     if (ok)
-        ok = best ? tn_buffer_printf(&text, "the %zu of %s plans with the ", s->drawn.count, digits)
+        ok = best ? tn_buffer_printf(&text, "%s%zu of %s plans with the ",
+                                     s->request->diverse ? "plans that differ, among the best: " : "the ",
+                                     s->drawn.count, digits)
                   : tn_buffer_printf(&text, "%zu of %s plans, drawn with seed %" PRIu64, s->drawn.count, digits,
                                      s->request->seed);
     for (uint32_t k = 0; ok && best && k < wishes->count; k++)
@@ -752,7 +755,7 @@ static tn_status check_plans(tn_session *session, const tn_draw_request *r)
         return tn_session_refuse(session, NULL, "draw either rules or plans, not both");
     if (is_sampled(r) && r->from)
         return tn_session_refuse(session, NULL, "draw either a file of plans or a --sample, not both");
-    if (!is_sampled(r) && (r->has_seed || r->has_length || (r->diverse && !(r->has_best && of_houses(session, r)))))
+    if (!is_sampled(r) && (r->has_seed || r->has_length || (r->diverse && !r->has_best)))
         return tn_session_refuse(session, NULL,
                                  "--seed, --length and --diverse say what is sampled: give --sample N too");
     if (!is_sampled(r) && !r->has_best && !r->front && r->subject.has_trays)

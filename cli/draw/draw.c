@@ -260,7 +260,7 @@ static const tn_option options[] = {
     NUMBER("seed", 's', "S", seed, 0, 0, "which sample (default 0)"),
     NUMBER("length", 0, "L", length, 0, UINT32_MAX - 1, "sample only plans of L trays"),
     NUMBER("per-length", 0, "N", per_length, 0, TN_DRAW_SAMPLE_MAX, "sample N plans of each number of trays"),
-    FLAG("diverse", 0, diverse, "of a sample, or of the best houses: plans or houses that differ from one another"),
+    FLAG("diverse", 0, diverse, "of a sample, or of the best: plans or houses that differ from one another"),
     NUMBER("best", 0, "N", best, 1, TN_DRAW_SAMPLE_MAX,
            "draw the N best plans or houses of the library, with their values"),
     WISH("least", wanted, "with --best: the plans with the least MEASURE first"),

@@ -241,7 +241,8 @@ static const tn_option options[] = {
     WISH("most", wanted, "the plans with the most MEASURE first"),
     WISH("then-least", wanted, "of equal ones those with the least of this measure; may be repeated"),
     WISH("then-most", wanted, "of equal ones those with the most of this measure; may be repeated"),
-    FLAG("diverse", 0, diverse, "of houses: those that differ as people see it, before those that differ in furniture"),
+    FLAG("diverse", 0, diverse,
+         "plans that differ from one another, among the best; houses that differ as people see it"),
     FLAG("mirror", 0, mirror, "leave out a plan whose mirror image is kept and of lower rank"),
     TEXT("plan", 0, "PLAN", plan, "the best houses on one plan: a plan in any spelling, or # and its rank"),
     OPTION_PLAN_FORMAT,
@@ -256,7 +257,7 @@ const tn_command tn_command_best = {
     .name = "best",
     .summary = "write the best plans of a library by a measure",
     .usage =
-        "FILE [N] --least MEASURE\nFILE [N] --most MEASURE [--then-least MEASURE]\nFILE [N] --least MEASURE -o "
+        "FILE [N] --least MEASURE\nFILE [N] --most MEASURE [--then-least MEASURE] [--diverse]\nFILE [N] --least MEASURE -o "
         "SHEET.svg\nFILE [N] [--library PREFERS]\nFILE [N] --library HOUSES [--plan PLAN] [--diverse] --least MEASURE",
     .description =
         "Writes the N (10) plans of the library with the least or most of a measure, in order: by the measure, then by "
@@ -268,7 +269,9 @@ const tn_command tn_command_best = {
         "at. In lines, a comment before each plan has its values and its rank; in JSON, \"value\" or \"values\" has "
         "them exactly, in feet or metres. With -o and the name of a picture (.svg, .png or .pdf) the plans are drawn, "
         "each "
-        "with its place and its values.\n\n"
+        "with its place and its values. With --diverse they are plans that differ, as `tartan sample --diverse` "
+        "chooses them: the best, and then each time the one of the best 1,000 (or of 20 times N) that differs most "
+        "from those before; they are written in their order.\n\n"
         "With --library HOUSES, or --plan, the best houses are written, as house lines or JSON lines, or drawn, each "
         "with its name #P:V and its values; --least and --most name measures of houses or of plans "
         "(docs/houses.md). With --diverse they are the best houses on N different plans, in order; where there are not "

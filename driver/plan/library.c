@@ -226,6 +226,33 @@ tn_status tn_rule_choose(tn_opened *opened, const char *name, uint32_t *index)
     return status;
 }
 
+/* Finds it among the measures of a schema's plans, or of houses on these. Where there are none the error says what to
+ * write: a sum of a length that trays have, or how many trays there are. */
+static tn_status pick_measure(tn_opened *opened, const names *all, uint32_t schema, const char *name, uint32_t *measure)
+{
+    const tn_module *module = opened->module;
+    const tn_schema_record *record = &module->SCHEMA_records[schema];
+    tn_diagnostics *diagnostics = &opened->compilation.diagnostics;
+    const char *using = module->SCHEMA_count > 1 ? " using " : "", *of = *using ? tn_text(module, record->name) : "";
+    size_t before = diagnostics->count;
+    tn_status status = pick(opened, all, "measure", name, measure);
+    if (status != TN_INVALID || all->count > 0 || diagnostics->count == before)
+        return status;
+    tn_diagnostic *none = &diagnostics->items[diagnostics->count - 1];
+    if (none->help)
+        return status;
+    for (uint32_t i = record->field_first; i < record->field_first + record->field_count; i++)
+        if (module->FIELD_records[i].kind == TN_FIELD_LENGTH) {
+            const char *field = tn_text(module, module->FIELD_records[i].name);
+            tn_help(diagnostics, none, "it has no measures: write one, such as `measure whole-%s%s%s = sum(%s)`", field,
+                    using, of, field);
+            return status;
+        }
+    tn_help(diagnostics, none, "it has no measures: write one, such as `measure trays-in-all%s%s = quantity(any)`",
+            using, of);
+    return status;
+}
+
 tn_status tn_measure_choose(tn_opened *opened, const char *name, const tn_library_record *library, uint32_t *measure)
 {
     const tn_module *module = opened->module;
@@ -234,7 +261,7 @@ tn_status tn_measure_choose(tn_opened *opened, const char *name, const tn_librar
     if (names_new((size_t)module->MEASURE_count + 1, &all)) {
         for (uint32_t i = TN_NO_RECORD; tn_named_measure_next(module, library, &i);)
             names_add(&all, tn_named_measure(module, i), i);
-        status = pick(opened, &all, "measure", name, measure);
+        status = pick_measure(opened, &all, library->schema, name, measure);
     } else {
         status = no_memory(opened);
     }
@@ -269,7 +296,7 @@ tn_status tn_house_measure_choose(tn_opened *opened, const char *name, uint32_t 
             if (module->MEASURE_records[i].schema == module->FORM_records[form].schema)
                 names_add(&all, tn_text(module, module->MEASURE_records[i].name),
                           (uint32_t)module->HOUSE_MEASURE_count + i);
-        status = pick(opened, &all, "measure", name, index);
+        status = pick_measure(opened, &all, module->FORM_records[form].schema, name, index);
         if (status == TN_OK && *index >= module->HOUSE_MEASURE_count)
             status = refuse_partial(opened, *index - (uint32_t)module->HOUSE_MEASURE_count);
     } else {

@@ -32,6 +32,10 @@ golden diverse 'tartan sample measures.plan 4 -l strips --diverse --seed 2'
 golden diverse_all 'tartan sample measures.plan 500 -l strips --length 2 --diverse | wc -l'
 golden diverse_many 'tartan sample measures.plan 501 -l strips --diverse'
 golden diverse_lengths 'tartan sample measures.plan -l strips --per-length 3 --diverse'
+golden best_diverse 'tartan best measures.plan 3 -l strips --least cost --diverse'
+golden best_diverse_json 'tartan best measures.plan 2 -l strips --most area --diverse -f json'
+golden best_diverse_many 'tartan best measures.plan 501 -l strips --least cost --diverse'
+golden no_measures 'tartan best rows.plan 3 --least cost; tartan count street.plan --library street --by x'
 golden by_limit 'tartan count prices.plan --by cost'
 golden no_measure 'tartan count measures.plan -l strips --by arae'
 golden wrong_step 'tartan count measures.plan -l strips --by area --step 2m2'
@@ -55,4 +59,45 @@ golden module_where "tartan count $scratch/measures.tnb -l strips --where 'area 
 grep -v '^#' "$scratch/best" | "$TARTAN" prune "$files/measures.plan" - -l strips >"$scratch/kept" 2>/dev/null
 cmp <(grep -v '^#' "$scratch/best") "$scratch/kept" || fail 'best writes plans that the library does not keep'
 sed -n 's/^# \([^ ]*\) .*/\1/p' "$scratch/best" | tr -d , | sort -n -c || fail 'best is not in order'
+
+# What is proposed where a file has no measures can be written and asked for.
+sed -n 's/.*such as `\(.*\)`/\1/p' "$here/measures/no_measures.golden" | head -n 1 >"$scratch/proposed"
+cat "$files/rows.plan" "$scratch/proposed" >"$scratch/measured.plan"
+exits 0 "$TARTAN" best "$scratch/measured.plan" 3 --least "$(cut -d ' ' -f 2 <"$scratch/proposed")"
+
+# Those of the best that differ, chosen here by the definition: farthest first, of equal ones the better.
+"$TARTAN" best "$files/measures.plan" 1000 -l strips --least cost -f json >"$scratch/pool"
+for wanted in 1 4 30; do
+    "$TARTAN" best "$files/measures.plan" $wanted -l strips --least cost --diverse -f json >"$scratch/diverse"
+    python3 - "$scratch/pool" "$scratch/diverse" $wanted <<'PYTHON' || fail "$wanted of the best that differ are others"
+import functools, json, sys
+
+pool = [json.loads(line) for line in open(sys.argv[1])]
+fields = len(pool[0]["trays"][0])
+
+
+@functools.lru_cache(None)
+def trays_differ(a, b):
+    return sum(x != y for x, y in zip(a, b))
+
+
+def distance(p, q):
+    before = [j * fields for j in range(len(q) + 1)]
+    for i, a in enumerate(p, 1):
+        now = [i * fields]
+        for j, b in enumerate(q, 1):
+            now.append(min(before[j - 1] + trays_differ(a, b), before[j] + fields, now[-1] + fields))
+        before = now
+    return before[-1]
+
+
+plans = [[tuple(sorted((k, json.dumps(v)) for k, v in tray.items())) for tray in plan["trays"]] for plan in pool]
+chosen, least = [0], [distance(p, plans[0]) for p in plans]
+while len(chosen) < int(sys.argv[3]):
+    chosen.append(max(range(len(plans)), key=lambda i: (least[i], -i)))
+    least = [min(old, distance(p, plans[chosen[-1]])) for old, p in zip(least, plans)]
+got = [json.loads(line) for line in open(sys.argv[2])]
+assert got == [pool[i] for i in sorted(chosen)], (chosen, got)
+PYTHON
+done
 finish
