@@ -257,7 +257,8 @@ const tn_command tn_command_best = {
     .name = "best",
     .summary = "write the best plans of a library by a measure",
     .usage =
-        "FILE [N] --least MEASURE\nFILE [N] --most MEASURE [--then-least MEASURE] [--diverse]\nFILE [N] --least MEASURE -o "
+        "FILE [N] --least MEASURE\nFILE [N] --most MEASURE [--then-least MEASURE] [--diverse]\nFILE [N] --least "
+        "MEASURE -o "
         "SHEET.svg\nFILE [N] [--library PREFERS]\nFILE [N] --library HOUSES [--plan PLAN] [--diverse] --least MEASURE",
     .description =
         "Writes the N (10) plans of the library with the least or most of a measure, in order: by the measure, then by "

@@ -108,10 +108,11 @@ const tn_command tn_command_report = {
     .summary = "write a library, or a kit, as an HTML page",
     .usage = "FILE -o FOLDER\nFILE --library HOUSES -o FOLDER\nFILE.kit [-o PAGE.html]",
     .description =
-        "Writes one page that needs no server and no network. It shows the library's counts by length as a chart; "
-        "every rule with its picture, its text, its counts, how it relates to the other rules, the plans that "
-        "prove it, and which of its parts the tests notice; the warnings of checking; and a sample of plans, kept "
-        "and dropped, with the reasons. The sample can be filtered.\n\n"
+        "Writes one page that needs no server and no network. It begins with a sheet of plans, the brief in figures "
+        "(how many plans there are, what is asked for, what each measure comes to), and a chart of each measure. Then "
+        "come counts by length; every rule with its picture, its text, its counts, how it relates to the other rules, "
+        "the plans that prove it, and which of its parts the tests notice; and a sample of plans, kept and dropped, "
+        "with the reasons, which can be filtered. Warnings of checking and limits are at the end, once.\n\n"
         "Of a library of houses, the page shows how many houses there are and what each clause keeps out; some of the "
         "houses, drawn; and the form: its storeys, its functions and where they may be, its openings, and its tiles, "
         "drawn with their boxes.\n\n"

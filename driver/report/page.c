@@ -22,6 +22,8 @@ static const char style[] =
     "details{margin:.4rem 0}summary{cursor:pointer;color:#2a5599}\n"
     "table{border-collapse:collapse;font-size:13px}td,th{text-align:right;padding:.1rem .6rem;vertical-align:top}\n"
     ".parts td:first-child,.parts th:first-child{text-align:left;overflow-wrap:anywhere}\n"
+    ".figures{font-size:15px;margin:.6rem 0}.figures td.number,.figures "
+    "th:nth-child(n+3){text-align:right;white-space:nowrap}\n"
     ".words td,.words th{text-align:left}.words .first td{border-top:1px solid #ddd}\n"
     ".swatch{display:inline-block;width:.8em;height:.8em}\n"
     ".side{display:flex;flex-wrap:wrap;gap:0 3rem;align-items:flex-start}\n"
@@ -198,8 +200,14 @@ static bool put_limit(const tn_page *page, tn_opened *opened, const tn_diagnosti
     return good && tn_page_html(page, "</li>\n");
 }
 
-/* What was not found out: below everything else, each limit once. */
-bool tn_page_limits(const tn_page *page, tn_opened *opened)
+static bool begin_limits(const tn_page *page, bool *begun)
+{
+    bool first = !*begun;
+    *begun = true;
+    return !first || tn_page_html(page, "<h2 id=\"limits\">What was not found out</h2>\n<ul>\n");
+}
+
+bool tn_page_limits(const tn_page *page, tn_opened *opened, const tn_buffer *more, size_t more_count)
 {
     tn_diagnostics *found = &opened->compilation.diagnostics;
     bool good = true, any = false;
@@ -208,10 +216,11 @@ bool tn_page_limits(const tn_page *page, tn_opened *opened)
         const tn_diagnostic *item = &found->items[i];
         if (!item->limit || !item->message || is_told(found, i))
             continue;
-        if (!any)
-            good = tn_page_html(page, "<h2 id=\"limits\">What was not found out</h2>\n<ul>\n");
-        good = good && put_limit(page, opened, item);
-        any = true;
+        good = begin_limits(page, &any) && put_limit(page, opened, item);
     }
+    for (size_t i = 0; good && i < more_count; i++)
+        good =
+            more[i].size == 0 || (begin_limits(page, &any) && tn_page_html(page, "<li>") &&
+                                  tn_page_text_part(page, more[i].data, more[i].size) && tn_page_html(page, "</li>\n"));
     return good && (!any || tn_page_html(page, "</ul>\n"));
 }

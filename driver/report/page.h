@@ -41,8 +41,11 @@ tn_status tn_page_put_picture(const tn_page *page, tn_picture *picture, const ch
 /* A finding with its notes: what checking says at the terminal. */
 bool tn_page_finding(const tn_page *page, tn_opened *opened, const tn_diagnostic *item);
 
-/* The warnings of checking, and its notes but for limits; and each limit once, below everything else. */
+/* The warnings of checking, and its notes but for limits. */
 bool tn_page_findings(const tn_page *page, tn_opened *opened);
-bool tn_page_limits(const tn_page *page, tn_opened *opened);
+
+/* What was not found out, below everything else: each limit that checking met, once, and what else there is to say of
+ * limits, a line each (an empty one is none). */
+bool tn_page_limits(const tn_page *page, tn_opened *opened, const tn_buffer *more, size_t more_count);
 
 #endif

@@ -1,13 +1,14 @@
 /* Writes the report of a library: the page, its counts and its warnings. */
 #include "driver/report/report.h"
 
+#include <inttypes.h>
 #include <stdlib.h>
 
-#include "driver/measure/spread.h"
 #include "driver/open/digits.h"
-#include "driver/report/report_rules.h"
-#include "runtime/plan/measure/best.h"
-#include "runtime/plan/measure/named.h"
+#include "driver/report/reporting.h"
+#include "runtime/base/array.h"
+#include "runtime/base/integers.h"
+#include "runtime/plan/picture/draw.h"
 #include "runtime/plan/picture/draw_explain.h"
 
 /* ---- what is HTML and nothing else */
@@ -94,10 +95,7 @@ tn_status tn_report_put_explained(tn_reporting *r, const tn_explained *explained
     return tn_page_put_picture(&r->page, &picture, description, status);
 }
 
-/* ---- plans */
-
-/* The plan alone. */
-static tn_status put_plan(tn_reporting *r, const tn_tray *trays, size_t length, const char *description)
+tn_status tn_report_put_plan(tn_reporting *r, const tn_tray *trays, size_t length, const char *description)
 {
     tn_picture picture = tn_page_next_picture(&r->page);
     const tn_drawn_reasons drawn = {.plan = {.trays = trays, .length = length}};
@@ -158,132 +156,6 @@ static bool draw_chart(const tn_reporting *r, uint32_t low, const mpz_t *generat
                                        "logarithmic.</p>\n");
 }
 
-/* ---- the measures of a report */
-
-enum { SHOWN = 5 };
-
-/* The picture says what the measure is of. */
-static bool put_title(const tn_reporting *r, uint32_t measure)
-{
-    const char *name = tn_named_measure(r->module, measure);
-    return tn_page_html(&r->page, "<section class=\"card measure\" id=\"measure-") && tn_page_text(&r->page, name) &&
-           tn_page_html(&r->page, "\"><h3>") && tn_page_text(&r->page, name) && tn_page_html(&r->page, "</h3>\n");
-}
-
-/* ---- the plans with the least or the most */
-
-static bool put_value(const tn_reporting *r, const tn_spread *spread, const int64_t *values, const mpz_t rank)
-{
-    tn_buffer text = {0};
-    mpq_t value;
-    mpq_init(value);
-    tn_weighed_value(spread->weighed, 0, values, value);
-    bool good = tn_amount_write(spread->bins.unit, value, &text) && tn_page_html(&r->page, "<div><p><b>") &&
-                tn_page_text(&r->page, text.data) && tn_page_html(&r->page, "</b>, rank ") &&
-                tn_report_number(r, rank) && tn_page_html(&r->page, "</p>\n");
-    mpq_clear(value);
-    free(text.data);
-    return good;
-}
-
-static tn_status put_best_plan(tn_reporting *r, const tn_spread *spread, const tn_tray *trays, uint32_t length,
-                               const int64_t *values)
-{
-    mpz_t rank;
-    mpz_init(rank);
-    tn_library_rank(r->ready->library, trays, length, rank);
-    tn_status status = tn_page_written(&r->page, put_value(r, spread, values, rank));
-    mpz_clear(rank);
-    if (status == TN_OK)
-        status = put_plan(r, trays, length, "one of the best plans by a measure");
-    if (status != TN_OK)
-        return status;
-    return tn_page_written(&r->page, tn_page_html(&r->page, "<p class=\"line\">") && tn_report_plan(r, trays, length) &&
-                                         tn_page_html(&r->page, "</p></div>\n"));
-}
-
-static tn_status put_best_plans(tn_reporting *r, const tn_spread *spread, tn_best *best)
-{
-    tn_tray *trays = malloc(sizeof *trays * ((size_t)tn_library_max(r->ready->library) + 1));
-    tn_status status = trays ? TN_OK : tn_fail_memory(r->page.error);
-    bool found = true;
-    for (int i = 0; status == TN_OK && found && i < SHOWN; i++) {
-        int64_t values[TN_WEIGHED_MAX];
-        uint32_t length;
-        status = tn_best_next(best, trays, &length, values, &found, r->page.error);
-        if (status == TN_OK && found)
-            status = put_best_plan(r, spread, trays, length, values);
-    }
-    free(trays);
-    return status;
-}
-
-static tn_status put_best(tn_reporting *r, const tn_spread *spread, bool most)
-{
-    tn_best *best = NULL;
-    tn_status status = tn_best_new(spread->weighed, &most, &best, r->page.error);
-    if (status == TN_OK)
-        status =
-            tn_page_written(&r->page, tn_page_html(&r->page, most ? "<details><summary>the plans with the most"
-                                                                  : "<details><summary>the plans with the least") &&
-                                          tn_page_html(&r->page, "</summary>\n<div class=\"best\">\n"));
-    if (status == TN_OK)
-        status = put_best_plans(r, spread, best);
-    tn_best_free(best);
-    return status == TN_OK ? tn_page_written(&r->page, tn_page_html(&r->page, "</div></details>\n")) : status;
-}
-
-/* ---- one measure */
-
-static tn_status put_spread(tn_reporting *r, tn_spread *spread)
-{
-    tn_picture picture = tn_page_next_picture(&r->page);
-    if (spread->d.count > TN_VALUES_LISTED)
-        tn_bins_few(&spread->bins, TN_BINS_DEFAULT);
-    tn_status status = tn_spread_draw(spread, &picture, r->page.error);
-    status = tn_page_put_picture(&r->page, &picture, "how the plans are spread over the measure", status);
-    if (status == TN_OK && spread->d.count > 0)
-        status = put_best(r, spread, false);
-    if (status == TN_OK && spread->d.count > 0)
-        status = put_best(r, spread, true);
-    return status;
-}
-
-/* A measure past a limit is not shown, and why is told. */
-static tn_status put_measure(tn_reporting *r, uint32_t measure)
-{
-    tn_spread spread;
-    size_t before = r->page.text->size;
-    tn_status status = tn_page_written(&r->page, put_title(r, measure));
-    if (status != TN_OK)
-        return status;
-    status = tn_spread_make(&spread, r->ready, measure, r->page.error);
-    if (status == TN_OK)
-        status = put_spread(r, &spread);
-    tn_spread_clear(&spread);
-    if (status == TN_LIMIT) {
-        r->page.text->size = before;
-        status = tn_page_written(
-            &r->page, put_title(r, measure) && tn_page_html(&r->page, "<p class=\"quiet\">not worked out: ") &&
-                          tn_page_prose(&r->page, r->page.error->message) && tn_page_html(&r->page, "</p>\n"));
-    }
-    return status == TN_OK ? tn_page_written(&r->page, tn_page_html(&r->page, "</section>\n")) : status;
-}
-
-static tn_status put_measures(tn_reporting *r)
-{
-    tn_status status = tn_page_written(&r->page, tn_page_html(&r->page, "<h2 id=\"measures\">Measures</h2>\n"));
-    bool any = false;
-    for (uint32_t i = TN_NO_RECORD; status == TN_OK && tn_named_measure_next(r->module, r->ready->record, &i);) {
-        status = put_measure(r, i);
-        any = true;
-    }
-    if (status == TN_OK && !any)
-        status =
-            tn_page_written(&r->page, tn_page_html(&r->page, "<p class=\"quiet\">The file has no measures.</p>\n"));
-    return status;
-}
-
 /* ---- the sheet of plans of a report, kept and dropped, which can be filtered */
 
 static bool put_reasons(const tn_reporting *r, const tn_explained *explained)
@@ -322,7 +194,7 @@ static tn_status put_kept_plan(tn_reporting *r, const tn_explained *explained, c
         tn_page_html(&r->page, "</p>\n");
     tn_status status = tn_page_written(&r->page, good);
     if (status == TN_OK && explained->kept)
-        status = put_plan(r, explained->trays, explained->length, "a plan that is kept");
+        status = tn_report_put_plan(r, explained->trays, explained->length, "a plan that is kept");
     else if (status == TN_OK)
         status = tn_report_put_explained(r, explained, "a plan that is dropped, with the reasons");
     if (status == TN_OK)
@@ -336,32 +208,42 @@ static tn_status put_kept_plan(tn_reporting *r, const tn_explained *explained, c
     return status;
 }
 
+/* The ranks of a sample of a library; an array of `wanted`, initialised. */
+static tn_status sample(const tn_reporting *r, const tn_library *library, size_t wanted, mpz_t **ranks, size_t *found)
+{
+    *found = 0;
+    *ranks = tn_integers_new(wanted);
+    return *ranks ? tn_library_sample(library, r->options->seed, TN_ALL_LENGTHS, wanted, *ranks, found, r->page.error)
+                  : tn_fail_memory(r->page.error);
+}
+
+static tn_status put_sampled(tn_reporting *r, const tn_library *library, const mpz_t rank, tn_tray *trays, bool dropped)
+{
+    uint32_t length = 0;
+    tn_explained explained;
+    tn_library_unrank(library, rank, trays, &length);
+    if (dropped && tn_library_has(r->ready->library, trays, length))
+        return TN_OK;
+    tn_status status = tn_explained_make(&explained, r->opened, r->ready->schema, r->ready->record, NULL, 0, trays,
+                                         length, (size_t)length + 1, r->page.error);
+    if (status == TN_OK)
+        status = put_kept_plan(r, &explained, rank);
+    tn_explained_clear(&explained);
+    return status;
+}
+
 /* Plans sampled from a library; of what is generated only those that the library drops. */
 static tn_status put_sample(tn_reporting *r, const tn_library *library, bool dropped)
 {
-    size_t count = r->options->samples, found = 0;
-    mpz_t *ranks = malloc(sizeof *ranks * (count + 1));
+    size_t found;
+    mpz_t *ranks;
     tn_tray *trays = malloc(sizeof *trays * ((size_t)tn_library_max(library) + 1));
-    for (size_t i = 0; ranks && i < count; i++)
-        mpz_init(ranks[i]);
-    tn_status status = ranks && trays ? tn_library_sample(library, r->options->seed, TN_ALL_LENGTHS, count, ranks,
-                                                          &found, r->page.error)
-                                      : tn_fail_memory(r->page.error);
-    for (size_t i = 0; status == TN_OK && i < found; i++) {
-        uint32_t length = 0;
-        tn_explained explained;
-        tn_library_unrank(library, ranks[i], trays, &length);
-        if (dropped && tn_library_has(r->ready->library, trays, length))
-            continue;
-        status = tn_explained_make(&explained, r->opened, r->ready->schema, r->ready->record, NULL, 0, trays, length,
-                                   (size_t)length + 1, r->page.error);
-        if (status == TN_OK)
-            status = put_kept_plan(r, &explained, ranks[i]);
-        tn_explained_clear(&explained);
-    }
-    for (size_t i = 0; ranks && i < count; i++)
-        mpz_clear(ranks[i]);
-    free(ranks);
+    tn_status status = sample(r, library, r->options->samples, &ranks, &found);
+    if (status == TN_OK && !trays)
+        status = tn_fail_memory(r->page.error);
+    for (size_t i = 0; status == TN_OK && i < found; i++)
+        status = put_sampled(r, library, ranks[i], trays, dropped);
+    tn_integers_free(ranks, r->options->samples);
     free(trays);
     return status;
 }
@@ -371,7 +253,7 @@ static bool put_controls(const tn_reporting *r)
     const tn_library_record *record = r->ready->record;
     bool good = tn_page_html(
         &r->page,
-        "<h2 id=\"plans\">Plans</h2>\n<p class=\"controls\"><input id=\"words\" aria-label=\"words\" "
+        "<h2 id=\"each\">Plans one by one</h2>\n<p class=\"controls\"><input id=\"words\" aria-label=\"words\" "
         "placeholder=\"words in the plan or the reasons\" size=\"30\"> <select id=\"which\" aria-label=\"kept or "
         "dropped\"><option value=\"all\">kept and dropped</option><option "
         "value=\"kept\">kept</option><option value=\"dropped\">dropped</option></select> <select "
@@ -383,7 +265,7 @@ static bool put_controls(const tn_reporting *r)
     return good && tn_page_html(&r->page, "</select> <span id=\"shown\"></span></p>\n<div id=\"sheet\">\n");
 }
 
-static tn_status put_plans(tn_reporting *r)
+static tn_status put_one_by_one(tn_reporting *r)
 {
     tn_library_options options = {.max_states = r->options->max_states, .all_generated = true};
     tn_library *generated = NULL;
@@ -396,6 +278,136 @@ static tn_status put_plans(tn_reporting *r)
         status = put_sample(r, generated, true);
     tn_library_free(generated);
     return status == TN_OK ? tn_page_written(&r->page, tn_page_html(&r->page, "</div>\n")) : status;
+}
+
+/* ---- the sheet */
+
+enum { ON_SHEET = 6, NOTES = 2, NOTE_SIZE = 160 };
+
+/* Some plans that are kept, with their ranks: all that holding and drawing them takes. */
+typedef struct sheet {
+    mpz_t *ranks;
+    size_t wanted, count;
+    tn_tray *trays; /* [count][longest] */
+    char *numbers[ON_SHEET];
+    tn_drawn_plan plans[ON_SHEET];
+} sheet;
+
+static tn_status fill_sheet(const tn_reporting *r, sheet *s)
+{
+    const tn_library *library = r->ready->library;
+    size_t longest = (size_t)tn_library_max(library) + 1;
+    tn_status status = sample(r, library, s->wanted, &s->ranks, &s->count);
+    s->trays = malloc(tn_size_of(s->count + 1, longest * sizeof *s->trays));
+    if (status == TN_OK && !s->trays)
+        status = tn_fail_memory(r->page.error);
+    for (size_t i = 0; status == TN_OK && i < s->count; i++) {
+        uint32_t length = 0;
+        tn_library_unrank(library, s->ranks[i], s->trays + i * longest, &length);
+        s->numbers[i] = mpz_get_str(NULL, 10, s->ranks[i]);
+        s->plans[i] = (tn_drawn_plan){.trays = s->trays + i * longest, .length = length, .number = s->numbers[i]};
+        if (!s->numbers[i])
+            status = tn_fail_memory(r->page.error);
+    }
+    return status;
+}
+
+static void clear_sheet(sheet *s)
+{
+    for (size_t i = 0; i < s->count; i++)
+        free(s->numbers[i]);
+    tn_integers_free(s->ranks, s->wanted);
+    free(s->trays);
+}
+
+/* As `tartan draw --sample` draws it, on a paper that is read on a screen; on a larger one if the plans are too long.
+ */
+static tn_status draw_sheet(tn_reporting *r, const sheet *s)
+{
+    char drawn[NOTE_SIZE], hash[33], made[NOTE_SIZE];
+    tn_library_hash(r->ready->library, hash);
+    snprintf(drawn, sizeof drawn, "drawn at random, seed %" PRIu64, r->options->seed);
+    snprintf(made, sizeof made, "library %s", hash);
+    const char *notes[NOTES] = {drawn, made};
+    tn_draw_options options = {.title = tn_text(r->module, r->ready->record->name),
+                               .doc = tn_text(r->module, r->ready->record->doc),
+                               .number_name = "rank",
+                               .notes = notes,
+                               .note_count = NOTES,
+                               .paper = "a4"};
+    tn_picture picture = tn_page_next_picture(&r->page);
+    tn_status status = tn_plans_draw(r->ready->schema, s->plans, s->count, &options, &picture, r->page.error);
+    options.paper = NULL;
+    if (status == TN_LIMIT)
+        status = tn_plans_draw(r->ready->schema, s->plans, s->count, &options, &picture, r->page.error);
+    if (status == TN_LIMIT)
+        return tn_page_written(&r->page, tn_page_html(&r->page, "<p class=\"quiet\">not drawn: ") &&
+                                             tn_page_prose(&r->page, r->page.error->message) &&
+                                             tn_page_html(&r->page, "</p>\n"));
+    return tn_page_put_picture(&r->page, &picture, "some plans of the library", status);
+}
+
+static tn_status put_sheet(tn_reporting *r)
+{
+    sheet s = {.wanted = r->options->samples < ON_SHEET ? r->options->samples : ON_SHEET};
+    tn_status status = tn_page_written(&r->page, tn_page_html(&r->page, "<h2 id=\"plans\">Plans</h2>\n"));
+    if (status == TN_OK)
+        status = fill_sheet(r, &s);
+    if (status == TN_OK && s.count > 0)
+        status = draw_sheet(r, &s);
+    else if (status == TN_OK)
+        status = tn_page_written(&r->page, tn_page_html(&r->page, "<p class=\"quiet\">no plan is kept</p>\n"));
+    clear_sheet(&s);
+    return status;
+}
+
+/* ---- the brief's figures: how many plans there are, what they are held to in figures, and what they come to */
+
+/* A clause that is not a rule by its name: a total, or a condition that the library itself says. */
+static bool put_asked(const tn_reporting *r, const tn_clause_record *clause)
+{
+    const char *text = tn_text(r->module, r->module->SOURCE_records[clause->file].text);
+    return tn_page_html(&r->page, "<tr><td>") &&
+           tn_page_html(&r->page, clause->kind == TN_CLAUSE_PRUNE ? "none with" : "asked for") &&
+           tn_page_html(&r->page, "</td><td><code>") &&
+           tn_page_text_part(&r->page, text + clause->begin, clause->end - clause->begin) &&
+           tn_page_html(&r->page, "</code> ") && tn_page_text(&r->page, tn_text(r->module, clause->doc)) &&
+           tn_page_html(&r->page, "</td></tr>\n");
+}
+
+static bool is_figure(const tn_reporting *r, const tn_clause_record *clause)
+{
+    bool named = tn_function_rule(r->module, clause->holds) != UINT32_MAX;
+    return !named && clause->kind != TN_CLAUSE_GENERATE && clause->kind != TN_CLAUSE_ONTO;
+}
+
+/* "4 to 8 trays" */
+static bool put_trays(const tn_reporting *r)
+{
+    uint32_t low = tn_library_min(r->ready->library), high = tn_library_max(r->ready->library);
+    if (low > high)
+        return true;
+    return tn_page_html(&r->page, "<tr><td>trays</td><td>") &&
+           (low == high ? tn_buffer_printf(r->page.text, "%u", low)
+                        : tn_buffer_printf(r->page.text, "%u to %u", low, high)) &&
+           tn_page_html(&r->page, "</td></tr>\n");
+}
+
+static bool put_figures(const tn_reporting *r, const tn_reported_measures *measures)
+{
+    const tn_library_record *record = r->ready->record;
+    mpz_t kept;
+    mpz_init(kept);
+    tn_library_kept(r->ready->library, TN_ALL_LENGTHS, kept);
+    bool good = tn_page_html(&r->page, "<h2 id=\"figures\">Figures</h2>\n<table class=\"words figures\">\n"
+                                       "<tr><td>plans</td><td><b>") &&
+                tn_report_number(r, kept) && tn_page_html(&r->page, "</b></td></tr>\n") && put_trays(r);
+    mpz_clear(kept);
+    for (uint32_t i = 0; good && i < record->clause_count; i++) {
+        const tn_clause_record *clause = &r->module->CLAUSE_records[record->clause_first + i];
+        good = !is_figure(r, clause) || put_asked(r, clause);
+    }
+    return good && tn_page_html(&r->page, "</table>\n") && tn_report_figures(r, measures);
 }
 
 /* ---- counts */
@@ -438,7 +450,7 @@ static tn_status put_totals(const tn_reporting *r)
     tn_library_kept(r->ready->library, TN_ALL_LENGTHS, kept);
     if (status == TN_OK)
         status = tn_page_written(
-            &r->page, tn_page_html(&r->page, "<h2 id=\"counts\">Counts</h2>\n<p>") && tn_report_number(r, generated) &&
+            &r->page, tn_page_html(&r->page, "<h2 id=\"rules\">Rules</h2>\n<p>") && tn_report_number(r, generated) &&
                           tn_page_html(&r->page, " plans generated, <b>") && tn_report_number(r, kept) &&
                           tn_page_html(&r->page, "</b> kept (") && tn_report_share(r, kept, generated) &&
                           tn_page_html(&r->page, ").</p>\n"));
@@ -453,10 +465,9 @@ static bool put_head(const tn_reporting *r)
     return tn_page_begin(&r->page, tn_text(r->module, r->ready->record->name),
                          tn_text(r->module, r->ready->record->doc)) &&
            tn_page_params(&r->page, r->opened) &&
-           tn_page_html(
-               &r->page,
-               "<nav><a href=\"#counts\">Counts</a> <a href=\"#findings\">Warnings</a> <a "
-               "href=\"#measures\">Measures</a> <a href=\"#rules\">Rules</a> <a href=\"#plans\">Plans</a></nav>\n");
+           tn_page_html(&r->page, "<nav><a href=\"#plans\">Plans</a> <a href=\"#figures\">Figures</a> <a "
+                                  "href=\"#rules\">Rules</a> <a href=\"#each\">Plans one by one</a> <a "
+                                  "href=\"#findings\">Warnings</a></nav>\n");
 }
 
 static bool put_foot(const tn_reporting *r)
@@ -470,22 +481,65 @@ static bool put_foot(const tn_reporting *r)
            tn_page_html(&r->page, report_foot) && tn_page_html(&r->page, "</html>\n");
 }
 
+/* Limits that cards of rules have met, each once: "12 of 45 pairs of rules are not compared: past the limit of states"
+ */
+static tn_status put_limits(tn_reporting *r)
+{
+    tn_buffer more[2] = {{0}};
+    bool good = true;
+    if (r->pairs_unknown)
+        good = tn_buffer_printf(&more[0], "%zu of %zu pairs of rules are not compared: past the limit of states",
+                                r->pairs_unknown, r->pairs);
+    if (good && r->clauses_unknown)
+        good = tn_buffer_printf(&more[1],
+                                "of %zu clauses it is not known whether they alone keep a plan out: past the limit of "
+                                "states",
+                                r->clauses_unknown);
+    good = good && tn_page_limits(&r->page, r->opened, more, 2);
+    free(more[0].data);
+    free(more[1].data);
+    return tn_page_written(&r->page, good);
+}
+
+/* What a client asks comes first; then the rules, and what is wrong or not known. */
+static tn_status put_page(tn_reporting *r, const tn_reported_measures *measures)
+{
+    tn_status status = tn_page_written(&r->page, put_head(r));
+    if (status == TN_OK)
+        status = put_sheet(r);
+    if (status == TN_OK)
+        status = tn_page_written(&r->page, put_figures(r, measures));
+    if (status == TN_OK)
+        status = tn_report_measures(r, measures);
+    if (status == TN_OK)
+        status = put_totals(r);
+    if (status == TN_OK)
+        status = put_chart(r);
+    if (status == TN_OK)
+        status = tn_report_rules(r);
+    if (status == TN_OK)
+        status = put_one_by_one(r);
+    if (status == TN_OK)
+        status = tn_page_written(&r->page, tn_page_findings(&r->page, r->opened));
+    if (status == TN_OK)
+        status = put_limits(r);
+    return status == TN_OK ? tn_page_written(&r->page, put_foot(r)) : status;
+}
+
 tn_status tn_report_page(tn_opened *opened, const tn_ready_library *ready, const tn_plan_analyses *analyses,
                          const tn_covered *covered, const tn_report_options *options, tn_buffer *page, tn_error *error)
 {
-    tn_reporting r = {opened, ready, opened->module, analyses, covered, options, {.text = page, .error = error}};
-    tn_status status = tn_page_written(&r.page, put_head(&r));
+    tn_reporting r = {.opened = opened,
+                      .ready = ready,
+                      .module = opened->module,
+                      .analyses = analyses,
+                      .covered = covered,
+                      .options = options,
+                      .page = {.text = page, .error = error}};
+    tn_reported_measures measures = {0};
+    tn_status status = tn_reported_measures_make(&r, &measures);
     if (status == TN_OK)
-        status = put_totals(&r);
-    if (status == TN_OK)
-        status = put_chart(&r);
-    if (status == TN_OK)
-        status = tn_page_written(&r.page, tn_page_findings(&r.page, opened));
-    if (status == TN_OK)
-        status = put_measures(&r);
-    if (status == TN_OK)
-        status = tn_report_rules(&r);
-    if (status == TN_OK)
-        status = put_plans(&r);
-    return status == TN_OK ? tn_page_written(&r.page, tn_page_limits(&r.page, opened) && put_foot(&r)) : status;
+        status = put_page(&r, &measures);
+    tn_reported_measures_clear(&measures);
+    return status;
 }

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 
 #include "driver/open/open.h"
-#include "driver/report/report_rules.h"
+#include "driver/report/reporting.h"
 #include "runtime/plan/picture/draw_rule.h"
 
 /* A clause or rule and what is known of it. */
@@ -180,8 +180,9 @@ static tn_status put_relation(const tn_reporting *r, const tn_plan_analysis *ana
     return status == TN_LIMIT ? TN_OK : status;
 }
 
-/* What rule i of an analysis shares with the others. That two rules merely overlap says nothing: most do. */
-static tn_status put_relations_of(const tn_reporting *r, const tn_plan_analysis *analysis, size_t i)
+/* What rule i of an analysis shares with the others. That two rules merely overlap says nothing: most do; and what was
+ * not found out is told once, with the limits. */
+static tn_status put_relations_of(tn_reporting *r, const tn_plan_analysis *analysis, size_t i)
 {
     static const char *const words[] = {[TN_RULES_EQUAL] = "matches the same plans as",
                                         [TN_RULES_APART] = "has no plan in common with",
@@ -189,26 +190,21 @@ static tn_status put_relations_of(const tn_reporting *r, const tn_plan_analysis 
                                         [TN_RULES_CONTAINS] = "matches all that is matched by",
                                         [TN_RULES_UNKNOWN] = NULL,
                                         [TN_RULES_OVERLAP] = NULL};
-    size_t unknown = 0, count = tn_plan_analysis_rule_count(analysis);
+    size_t count = tn_plan_analysis_rule_count(analysis);
     tn_status status = TN_OK;
     for (size_t j = 0; status == TN_OK && j < count; j++) {
-        if (j == i)
-            continue;
-        tn_rule_relation relation = tn_plan_analysis_relation(analysis, i, j);
-        unknown += relation == TN_RULES_UNKNOWN;
+        tn_rule_relation relation = j == i ? TN_RULES_OVERLAP : tn_plan_analysis_relation(analysis, i, j);
+        if (j > i) { /* each pair once: both rules have a card */
+            r->pairs++;
+            r->pairs_unknown += relation == TN_RULES_UNKNOWN;
+        }
         if (words[relation])
             status = put_relation(r, analysis, i, j, words[relation]);
     }
-    if (status != TN_OK || !unknown)
-        return status;
-    return tn_page_written(&r->page,
-                           tn_buffer_printf(r->page.text,
-                                            "<p class=\"quiet\">not compared with %zu rules: past the limit of "
-                                            "states</p>\n",
-                                            unknown));
+    return status;
 }
 
-static tn_status put_relations(const tn_reporting *r, const card *c)
+static tn_status put_relations(tn_reporting *r, const card *c)
 {
     tn_status status = TN_OK;
     for (size_t a = 0; a < r->analyses->count; a++) {
@@ -249,13 +245,12 @@ static tn_status put_witness_alone(tn_reporting *r, const card *c)
         if (r->analyses->schemas[a]->record != r->ready->schema->record || (r->ready->record->flags & TN_IMPORTED))
             continue;
         status = tn_plan_analysis_alone(r->analyses->items[a], r->ready->library, c->index, &plan, r->page.error);
-        if (status == TN_OK && plan.shown)
+        if (status == TN_OK && plan.shown) {
             status = put_alone(r, c, &plan);
-        else if (status == TN_LIMIT)
-            status = tn_page_written(
-                &r->page,
-                tn_page_html(&r->page, "<p class=\"quiet\">Whether it alone keeps a plan out is not analysed: past the "
-                                       "limit of states.</p>\n"));
+        } else if (status == TN_LIMIT) {
+            r->clauses_unknown++;
+            status = TN_OK;
+        }
         tn_shown_plan_clear(&plan);
     }
     return status;
@@ -322,7 +317,7 @@ static tn_status put_body(tn_reporting *r, const card *c)
 
 static tn_status put_clauses(tn_reporting *r)
 {
-    tn_status status = tn_page_written(&r->page, tn_page_html(&r->page, "<h2 id=\"rules\">Rules</h2>\n"));
+    tn_status status = TN_OK;
     for (uint32_t i = 0; status == TN_OK && i < clause_count(r); i++) {
         card c = card_of(r, i);
         status = tn_page_written(&r->page, put_title(r, &c));

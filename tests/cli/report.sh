@@ -40,6 +40,12 @@ assert len(ids) == len(set(ids)), "an id twice"
 for target in re.findall(r'href="#([^"]*)"', page) + re.findall(r"url\(#([^)]*)\)", page):
     assert target in ids, target
 assert page.count('<div class="plan kept"') == 5
+
+# What a client asks comes first, and what is wrong or not known last, once.
+heads = re.findall(r'<h2 id="([^"]*)"', page)
+assert heads == ["plans", "figures", "rules", "each", "findings"], heads
+sheet = page[page.index('id="plans"'):page.index('id="figures"')]
+assert sheet.count("<svg") == 1 and sheet.count(">rank</text>") == 5, sheet.count(">rank</text>")
 cards = re.findall(r'<section class="card" id="rule-([^"]*)">(.*?)</section>', page, re.S)
 assert [name for name, card in cards] == sys.argv[3:], cards
 counts = json.load(open(sys.argv[2]))
@@ -64,6 +70,16 @@ assert [name for name, card in cards] == ["area", "cost", "all-beds", "served"],
 for name, card in cards:
     assert card.count("<svg") == 11 and ">mean</text>" in card, name
 cost = dict(cards)["cost"]
+
+# The table of figures says of each measure what its histogram says.
+figures = page[page.index('id="figures"'):page.index('id="measures"')]
+rows = re.findall(r'<tr><td><a href="#measure-([^"]*)">.*?</td><td>.*?</td>(.*?)</tr>', figures)
+assert [name for name, row in rows] == [name for name, card in cards], rows
+for (name, row), (_, card) in zip(rows, cards):
+    values = re.findall(r"<td class=\"number\">(.*?)</td>", row)
+    texts = re.findall(r">([^<>]*)</text>", card)
+    facts = [texts[texts.index(word) + 1] for word in ("least", "half is at most", "most", "mean") if word in texts]
+    assert len(values) == 4 and values[:3] == facts[:3], (name, values, facts)
 assert re.findall(r'class="line">([^<]*)<', cost)[5:] == sys.argv[2].splitlines()
 assert "`" not in re.sub(r"<(script|pre|style)>.*?</\1>", "", page, flags=re.S), "backticks"
 assert "overlaps with" not in page and "pre-wrap" in page
@@ -74,6 +90,15 @@ PYTHON
 is 'what other rules match' "$(sed -n 's|.*"counts">matches \(.*\)</p>|\1|p' "$scratch/any/index.html" | sed 's|</*b>||g')" \
     '4 (19.0 % of what is generated)<br>of the plans kept 4 (19.0 %)
 14 (66.6 % of what is generated)<br>of the plans kept 14 (66.6 %)'
+
+# Rules past the limit of states: told once, at the end, not on every card.
+{
+    cat "$files/rows.plan"
+    for n in 60 70 80 90; do echo "rule shops-$n = quantity(tray(shop), n >= $n)"; done
+} >"$scratch/many.plan"
+"$TARTAN" report "$scratch/many.plan" --max-states 30 -o "$scratch/many" --sample 2 2>/dev/null
+is 'not compared' "$(grep -c 'not compared' "$scratch/many/index.html")" 1
+sed -n '/id="limits"/,$p' "$scratch/many/index.html" | grep -q '<li>[0-9]* of [0-9]* pairs of rules are not compared: past' || fail 'limits are not last'
 
 # Clauses of one name, of a library and of the one that it is from, have a place each.
 {

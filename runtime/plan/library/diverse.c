@@ -100,9 +100,8 @@ tn_status tn_plans_diverse(const tn_schema *schema, const tn_plan *plans, size_t
     size_t longest = 0;
     for (size_t i = 0; i < count; i++)
         longest = plans[i].length > longest ? plans[i].length : longest;
-    chosen_plans c = {.schema = schema,
-                      .items = calloc(wanted + 1, sizeof *c.items),
-                      .row = malloc((longest + 1) * sizeof *c.row)};
+    chosen_plans c = {
+        .schema = schema, .items = calloc(wanted + 1, sizeof *c.items), .row = malloc((longest + 1) * sizeof *c.row)};
     plan *held = malloc((count + 1) * sizeof *held);
     tn_status status = c.items && c.row && held ? TN_OK : tn_fail_memory(error);
     for (size_t i = 0; status == TN_OK && i < count; i++) {
