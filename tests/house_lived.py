@@ -4,7 +4,7 @@
 COUNT houses of each library below, or of that of FILE alone. An independent slow model goes about in each: its cells can be crossed between
 all doors past what stands in them, what is to be kept free is reached, leaves have room, flights stand. Then one comes in from outside, by the
 doors and open sides of the house as it is written, and goes from room to room: every cell is reached, and none of them only through a bath, a
-bedroom or a store; there is a kitchen, a bath and a bed, a flight to each storey, and a door to every store."""
+bedroom or a store; each dwelling has a kitchen, a bath and a bed; there is a flight to each storey, and a door to every store."""
 import importlib.util
 import json
 import os
@@ -12,10 +12,11 @@ import subprocess
 import sys
 import tempfile
 
-# File, library, what half of the houses are asked to be besides, so that small ones are among them.
+# File, library, what half of the houses are asked to be besides, so that small ones are among them, and what all who live there share.
 LIBRARIES = [
-    ("cottage.plan", "cottages", "quantity(any, n = 2)"),
-    ("row-houses.plan", "row-houses", "quantity(any, n = 2)"),
+    ("cottage.plan", "cottages", "quantity(any, n = 2)", set()),
+    ("row-houses.plan", "row-houses", "quantity(any, n = 2)", set()),
+    ("apartments.plan", "apartments", "quantity(any, n <= 7)", {"way-through", "lobby", "landing", "stair", "lounge", "laundry"}),
 ]
 PRIVATE = {"bath", "bedroom", "store", "larder"}  # nobody goes through them
 tartan, stdlib = sys.argv[1], sys.argv[3]
@@ -65,14 +66,30 @@ def reached(ways, entered, shut):
     return found
 
 
-def lacks(form, house):
+def dwellings(ways, cells):
+    """The cells in groups, each with all that one comes to within it."""
+    left, groups = set(cells), []
+    while left:
+        first = min(left)
+        inside = {cell: ways[cell] & cells for cell in cells}
+        groups.append(reached(inside, {first}, set()))
+        left -= groups[-1]
+    return groups
+
+
+def lacks(form, house, shared):
     """What a family misses in the house."""
     functions = {cell["id"]: cell.get("function") or "void" for cell in house["cells"]}
     storeys = {cell["id"]: cell["storey"] for cell in house["cells"]}
     ways, entered = ways_of(form, house)
     lived = {cell for cell, function in functions.items() if function != "void"}
     private = {cell for cell in lived if functions[cell] in PRIVATE}
-    missing = [f"no {function}" for function in ("kitchen", "bath", "bedroom") if function not in functions.values()]
+    missing = []
+    for group in dwellings(ways, {cell for cell in lived if functions[cell] not in shared}):
+        rooms = {room for cell in group for room in functions[cell].split("-")}
+        doors = sum(cell in ways[other] for cell in group for other in lived - group)
+        missing += [f"{doors} doors of the dwelling of cell {min(group)}"] if shared and doors != 1 else []
+        missing += [f"no {room} in the dwelling of cell {min(group)}" for room in ("kitchen", "bath", "bedroom") if room not in rooms]
     missing += [f"no way from outside to {functions[cell]} {cell}" for cell in sorted(lived - reached(ways, entered, set()))]
     missing += [f"no way to {functions[cell]} {cell} but through private rooms" for cell in sorted(lived - reached(ways, entered, private))]
     climbed = {storeys[face["b"]] for face in house["faces"] if face["kind"] in form["flights"]}
@@ -80,21 +97,21 @@ def lacks(form, house):
     return missing
 
 
-def live_in(model, form, path, line, scratch):
+def live_in(model, form, path, line, shared, scratch):
     out = os.path.join(scratch, "house.json")
     run("house", path, line, "-o", out)
     with open(out) as file:
         house = json.load(file)
     functions = {cell["id"]: cell.get("function") for cell in house["cells"]}
     faults = [f"{functions.get(cell)} {cell}: {what}" for cell, what in model.house(form, house)]
-    for fault in faults + lacks(form, house):
+    for fault in faults + lacks(form, house, shared):
         failures.append(f"{os.path.basename(path)}: {fault}: {line}")
 
 
 def main():
     model, lived = load(sys.argv[2]), 0
     with tempfile.TemporaryDirectory() as scratch:
-        for name, library, small in LIBRARIES:
+        for name, library, small, shared in LIBRARIES:
             if len(sys.argv) > 6 and name != sys.argv[6]:
                 continue
             path = os.path.join(stdlib, name)
@@ -105,7 +122,7 @@ def main():
                 if len(lines) != many:
                     failures.append(f"{name}: {len(lines)} houses of {many}")
                 for line in lines:
-                    live_in(model, form, path, line, scratch)
+                    live_in(model, form, path, line, shared, scratch)
     print("\n".join(failures[:20]))
     print(lived, "houses,", len(failures), "faults")
     return bool(failures) or not lived
