@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "runtime/base/array.h"
 #include "runtime/draw/device/lettering.h"
@@ -13,20 +14,28 @@
 #define WHOLE 6.283185307179586
 
 /* (x, y) stands at (x0 + across * x - down * y, y0 + down * x + across * y) of the page: axes are turned and of one
- * scale, and never mirrored. */
+ * scale. Within symbols that are mirrored, x is -x. */
 typedef struct axes {
     double across, down, x0, y0, scale, angle;
+    bool mirrored;
 } axes;
 
 typedef struct state {
     axes axes;
     tn_ink ink;
     tn_pen pen;
+    tn_layer layer;
     bool even_odd;
     double size;
     bool bold;
     size_t clips; /* since the state was saved */
 } state;
+
+/* A symbol that the device knows by its number. */
+typedef struct known_symbol {
+    char *name; /* owned */
+    double scale;
+} known_symbol;
 
 struct tn_paint {
     tn_device *device; /* or NULL */
@@ -37,12 +46,28 @@ struct tn_paint {
     size_t step_count, step_capacity;
     bool goes_on;            /* what is added goes on from where the path is */
     tn_drawn_step beginning; /* of the subpath */
-    tn_status status;        /* of the first failure */
+    known_symbol *symbols;   /* owned */
+    size_t symbol_count, symbol_capacity;
+    bool in_symbol;
+    tn_status status; /* of the first failure */
 };
 
-static void reset(state *s)
+static void tell_layer(tn_paint *paint)
 {
-    *s = (state){.axes = {.across = 1, .scale = 1}, .ink = {.opacity = 1}, .pen = {.width = 1}, .size = 10};
+    if (paint->device)
+        paint->device->layer = paint->now.layer;
+}
+
+static void reset(tn_paint *paint, axes from)
+{
+    paint->now = (state){.axes = from, .ink = {.opacity = 1}, .pen = {.width = 1}, .size = 10};
+    tell_layer(paint);
+}
+
+/* Those of the page. */
+static axes straight(double scale)
+{
+    return (axes){.across = scale, .scale = scale};
 }
 
 tn_paint *tn_paint_new(tn_device *device)
@@ -54,7 +79,7 @@ tn_paint *tn_paint_new(tn_device *device)
         return NULL;
     }
     paint->device = device;
-    reset(&paint->now);
+    reset(paint, straight(1));
     return paint;
 }
 
@@ -64,6 +89,9 @@ void tn_paint_free(tn_paint *paint)
         return;
     if (paint->device)
         paint->device->operations->free(paint->device);
+    for (size_t i = 0; i < paint->symbol_count; i++)
+        free(paint->symbols[i].name);
+    free(paint->symbols);
     free(paint->saved);
     free(paint->steps);
     free(paint);
@@ -105,7 +133,7 @@ tn_status tn_paint_next_page(tn_paint *paint, double width, double height, tn_er
         note(paint, paint->device->operations->next_page(paint->device, width, height));
     else if (draws(paint))
         return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "only a PDF has more than one page");
-    reset(&paint->now);
+    reset(paint, straight(1));
     return tell(paint, error);
 }
 
@@ -128,11 +156,13 @@ void tn_paint_restore(tn_paint *paint)
     for (size_t i = 0; i < paint->now.clips && draws(paint); i++)
         note(paint, paint->device->operations->end_clip(paint->device));
     paint->now = paint->saved[--paint->depth];
+    tell_layer(paint);
 }
 
 static void place(const tn_paint *paint, double x, double y, double *to_x, double *to_y)
 {
     const axes *a = &paint->now.axes;
+    x = a->mirrored ? -x : x;
     *to_x = a->x0 + a->across * x - a->down * y;
     *to_y = a->y0 + a->down * x + a->across * y;
 }
@@ -154,7 +184,7 @@ void tn_paint_scale(tn_paint *paint, double factor)
 void tn_paint_rotate(tn_paint *paint, double angle)
 {
     axes *a = &paint->now.axes;
-    a->angle += angle;
+    a->angle += a->mirrored ? -angle : angle;
     a->across = a->scale * tn_cos(a->angle);
     a->down = a->scale * tn_sin(a->angle);
 }
@@ -266,12 +296,17 @@ void tn_paint_rectangle(tn_paint *paint, double x, double y, double width, doubl
     tn_paint_close_path(paint);
 }
 
+static double turned(const axes *a, double angle)
+{
+    return a->angle + (a->mirrored ? WHOLE / 2 - angle : angle);
+}
+
 static void add_arc(tn_paint *paint, double x, double y, double radius, double from, double to)
 {
     const axes *a = &paint->now.axes;
     tn_paint_line_to(paint, x + radius * tn_cos(from), y + radius * tn_sin(from));
     tn_drawn_step step = {
-        .kind = TN_DRAWN_ARC, .radius = radius * a->scale, .from = from + a->angle, .to = to + a->angle};
+        .kind = TN_DRAWN_ARC, .radius = radius * a->scale, .from = turned(a, from), .to = turned(a, to)};
     place(paint, x, y, &step.x, &step.y);
     add(paint, step);
 }
@@ -309,15 +344,21 @@ void tn_paint_fill(tn_paint *paint)
 }
 
 /* The pen as it is on the page. */
-void tn_paint_stroke_keep(tn_paint *paint)
+static tn_pen pen_of(const tn_paint *paint)
 {
-    tn_drawn_path path = path_of(paint);
     tn_pen pen = paint->now.pen;
     double scale = paint->now.axes.scale;
     pen.width *= scale;
     pen.dash_offset *= scale;
     for (uint32_t i = 0; i < pen.dash_count; i++)
         pen.dashes[i] *= scale;
+    return pen;
+}
+
+void tn_paint_stroke_keep(tn_paint *paint)
+{
+    tn_drawn_path path = path_of(paint);
+    tn_pen pen = pen_of(paint);
     if (draws(paint) && path.count)
         note(paint, paint->device->operations->stroke(paint->device, &path, &pen, &paint->now.ink));
 }
@@ -346,6 +387,11 @@ void tn_paint_face(tn_paint *paint, double size, bool bold)
     paint->now.bold = bold;
 }
 
+void tn_paint_capitals(tn_paint *paint, double height, bool bold)
+{
+    tn_paint_face(paint, height / TN_LETTERING_CAPITALS, bold);
+}
+
 double tn_paint_text_width(const tn_paint *paint, const char *text)
 {
     return paint->now.size * tn_lettering_width(text, paint->now.bold);
@@ -363,7 +409,278 @@ void tn_paint_text(tn_paint *paint, double x, double y, tn_align align, const ch
         .angle = now->axes.angle, .size = now->size * now->axes.scale, .bold = now->bold, .align = align, .text = text};
     place(paint, x, y, &lettering.x, &lettering.y);
     if (draws(paint) && *text)
-        note(paint, paint->device->operations->text(paint->device, &lettering, &now->ink));
+        note(paint,
+             paint->in_symbol ? TN_INTERNAL : paint->device->operations->text(paint->device, &lettering, &now->ink));
+}
+
+/* ---- layers and weights */
+
+void tn_paint_layer(tn_paint *paint, tn_layer layer)
+{
+    paint->now.layer = layer;
+    tell_layer(paint);
+}
+
+void tn_paint_weight(tn_paint *paint, tn_weight weight)
+{
+    static const double millimetres[] = {
+        [TN_WEIGHT_CUT] = 0.5, [TN_WEIGHT_SEEN] = 0.35, [TN_WEIGHT_THIN] = 0.25, [TN_WEIGHT_HATCH] = 0.18};
+    tn_paint_line_width(paint, millimetres[weight] * TN_POINTS_PER_MM / paint->now.axes.scale);
+}
+
+bool tn_paint_covers(const tn_paint *paint)
+{
+    return !paint->device || !paint->device->outlines;
+}
+
+/* ---- hatches */
+
+#define HATCH_MOST 20000.0 /* lines of a region */
+
+typedef struct box {
+    double low[2], high[2];
+} box;
+
+static box bounds_of(const tn_drawn_path *path)
+{
+    box b = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    for (size_t i = 0; i < path->count; i++) {
+        const tn_drawn_step *step = &path->steps[i];
+        const double at[2] = {step->x, step->y}, around = step->kind == TN_DRAWN_ARC ? step->radius : 0;
+        for (int k = 0; k < 2 && step->kind != TN_DRAWN_CLOSE; k++) {
+            b.low[k] = fmin(b.low[k], at[k] - around);
+            b.high[k] = fmax(b.high[k], at[k] + around);
+        }
+    }
+    return b;
+}
+
+/* Lines that would be too many are farther apart. */
+static double bounded_scale(tn_hatch hatch, double scale, const box *b)
+{
+    size_t count;
+    const tn_hatch_lines *lines = tn_hatch_made_of(hatch, &count);
+    double across = hypot(b->high[0] - b->low[0], b->high[1] - b->low[1]), drawn = 0;
+    for (size_t i = 0; i < count; i++) {
+        double period = lines[i].dashes[0] + lines[i].dashes[1];
+        drawn += across / lines[i].apart * (period > 0 ? fmax(1, across / scale / period) : 1) / scale;
+    }
+    for (; drawn > HATCH_MOST; drawn /= 2)
+        scale *= 2;
+    return scale;
+}
+
+/* The lines of one direction across a box, in points of the page. */
+static void trace_hatch_lines(tn_paint *paint, const tn_hatched *h, const tn_hatch_lines *lines, const box *b)
+{
+    double angle = h->angle - lines->angle * WHOLE / 360, along[2] = {tn_cos(angle), tn_sin(angle)},
+           aside[2] = {along[1], -along[0]}, turn[2] = {tn_cos(h->angle), tn_sin(h->angle)},
+           x = h->x + h->scale * (turn[0] * lines->x - turn[1] * lines->y),
+           y = h->y + h->scale * (turn[1] * lines->x + turn[0] * lines->y), low[2] = {INFINITY, INFINITY},
+           high[2] = {-INFINITY, -INFINITY};
+    for (int k = 0; k < 4; k++) {
+        double dx = (k % 2 ? b->high[0] : b->low[0]) - x, dy = (k / 2 ? b->high[1] : b->low[1]) - y;
+        const double at[2] = {dx * along[0] + dy * along[1], dx * aside[0] + dy * aside[1]};
+        for (int i = 0; i < 2; i++) {
+            low[i] = fmin(low[i], at[i]);
+            high[i] = fmax(high[i], at[i]);
+        }
+    }
+    double apart = lines->apart * h->scale, period = (lines->dashes[0] + lines->dashes[1]) * h->scale;
+    for (double k = ceil(low[1] / apart); k * apart <= high[1]; k++) {
+        double from = low[0], shift = k * lines->shift * h->scale, step = period > 0 ? period : high[0] - low[0] + 1,
+               dash = period > 0 ? lines->dashes[0] * h->scale : step;
+        if (period > 0)
+            from = shift + floor((from - shift) / period) * period;
+        for (; from < high[0]; from += step) {
+            double to = fmin(from + dash, high[0]), u = x + k * apart * aside[0], v = y + k * apart * aside[1];
+            tn_paint_move_to(paint, u + from * along[0], v + from * along[1]);
+            tn_paint_line_to(paint, u + to * along[0], v + to * along[1]);
+        }
+    }
+}
+
+/* By lines that are clipped. */
+static void draw_hatch(tn_paint *paint, const tn_hatched *hatched, const box *b)
+{
+    size_t count;
+    const tn_hatch_lines *lines = tn_hatch_made_of(hatched->hatch, &count);
+    tn_paint_save(paint);
+    tn_paint_clip(paint);
+    paint->now.pen = pen_of(paint);
+    paint->now.axes = straight(1);
+    for (size_t i = 0; i < count; i++)
+        trace_hatch_lines(paint, hatched, &lines[i], b);
+    tn_paint_stroke(paint);
+    tn_paint_restore(paint);
+}
+
+void tn_paint_hatch(tn_paint *paint, tn_hatch hatch, double size)
+{
+    const axes *a = &paint->now.axes;
+    tn_drawn_path path = path_of(paint);
+    if (draws(paint) && path.count) {
+        tn_pen pen = pen_of(paint);
+        box b = bounds_of(&path);
+        tn_hatched hatched = {hatch, a->x0, a->y0, a->angle, bounded_scale(hatch, size * a->scale, &b)};
+        if (paint->device->operations->hatch)
+            note(paint, paint->device->operations->hatch(paint->device, &path, &hatched, &pen, &paint->now.ink));
+        else
+            draw_hatch(paint, &hatched, &b);
+    }
+    tn_paint_new_path(paint);
+}
+
+/* ---- symbols */
+
+/* The number of a symbol of that name and scale, or the count of symbols if there is none yet. */
+static size_t find_symbol(const tn_paint *paint, const char *name)
+{
+    size_t i = 0;
+    while (i < paint->symbol_count &&
+           (strcmp(paint->symbols[i].name, name) != 0 || paint->symbols[i].scale != paint->now.axes.scale))
+        i++;
+    return i;
+}
+
+/* Draws it with a state that is new but for these axes. */
+static void draw_symbol(tn_paint *paint, const tn_drawn_symbol *symbol, axes from)
+{
+    bool within = paint->in_symbol;
+    tn_paint_save(paint);
+    paint->in_symbol = true;
+    reset(paint, from);
+    symbol->draw(paint, symbol->of);
+    paint->in_symbol = within;
+    tn_paint_restore(paint);
+    tn_paint_new_path(paint);
+}
+
+static tn_status define_symbol(tn_paint *paint, const tn_drawn_symbol *symbol)
+{
+    const tn_device_operations *does = paint->device->operations;
+    size_t number = paint->symbol_count;
+    if (!tn_array_reserve(&paint->symbols, &paint->symbol_capacity, number, 1, sizeof *paint->symbols))
+        return TN_MEMORY;
+    char *name = strdup(symbol->name);
+    if (!name)
+        return TN_MEMORY;
+    paint->symbols[paint->symbol_count++] = (known_symbol){name, paint->now.axes.scale};
+    tn_status status = does->begin_symbol(paint->device, number, name);
+    if (status != TN_OK)
+        return status;
+    draw_symbol(paint, symbol, straight(paint->now.axes.scale));
+    return paint->status == TN_OK ? does->end_symbol(paint->device) : paint->status;
+}
+
+void tn_paint_symbol(tn_paint *paint, const tn_drawn_symbol *symbol, double x, double y, double angle, bool mirrored)
+{
+    axes a = paint->now.axes;
+    tn_paint_new_path(paint);
+    if (!draws(paint))
+        return;
+    place(paint, x, y, &a.x0, &a.y0);
+    a.angle += a.mirrored ? -angle : angle;
+    a.mirrored ^= mirrored;
+    a.across = a.scale * tn_cos(a.angle);
+    a.down = a.scale * tn_sin(a.angle);
+    if (!paint->device->operations->use_symbol || paint->in_symbol) {
+        draw_symbol(paint, symbol, a);
+        return;
+    }
+    size_t number = find_symbol(paint, symbol->name);
+    if (number == paint->symbol_count)
+        note(paint, define_symbol(paint, symbol));
+    const tn_symbol_place at = {a.x0, a.y0, a.angle, a.mirrored};
+    if (draws(paint))
+        note(paint, paint->device->operations->use_symbol(paint->device, number, &at));
+}
+
+/* ---- dimensions. Shares of the size of the lettering */
+
+#define DIMENSION_GAP 0.4    /* from a point to the line out from it */
+#define DIMENSION_BEYOND 0.3 /* how far that goes past the line of the dimension */
+#define DIMENSION_STROKE 0.3 /* half of how far an oblique stroke reaches, across and up */
+#define DIMENSION_RAISED 0.3 /* from the line to the text */
+
+static void trace_line(tn_paint *paint, double x0, double y0, double x1, double y1)
+{
+    tn_paint_move_to(paint, x0, y0);
+    tn_paint_line_to(paint, x1, y1);
+}
+
+/* along: a direction, `aside` the one to the left of it. */
+static void trace_dimension(tn_paint *paint, const tn_dimension *d, const double ends[2][2], const double along[2],
+                            const double aside[2])
+{
+    const double *points[2] = {d->from, d->to};
+    double size = paint->now.size, out = d->offset < 0 ? -1 : 1, stroke = DIMENSION_STROKE * size;
+    for (int i = 0; i < 2; i++) {
+        double gap = out * fmin(DIMENSION_GAP * size, fabs(d->offset)), past = out * DIMENSION_BEYOND * size;
+        double x = stroke * (along[0] + aside[0]), y = stroke * (along[1] + aside[1]);
+        trace_line(paint, points[i][0] + gap * aside[0], points[i][1] + gap * aside[1], ends[i][0] + past * aside[0],
+                   ends[i][1] + past * aside[1]);
+        trace_line(paint, ends[i][0] - x, ends[i][1] - y, ends[i][0] + x, ends[i][1] + y);
+    }
+    trace_line(paint, ends[0][0], ends[0][1], ends[1][0], ends[1][1]);
+    tn_paint_stroke(paint);
+}
+
+/* To be read from below, or from the right. */
+static void write_dimension(tn_paint *paint, const char *text, const double ends[2][2])
+{
+    double dx = ends[1][0] - ends[0][0], dy = ends[1][1] - ends[0][1];
+    if (dx < 0 || (dx == 0 && dy > 0)) {
+        dx = -dx;
+        dy = -dy;
+    }
+    tn_paint_save(paint);
+    tn_paint_translate(paint, (ends[0][0] + ends[1][0]) / 2, (ends[0][1] + ends[1][1]) / 2);
+    tn_paint_rotate(paint, tn_atan2(dy, dx));
+    tn_paint_text(paint, 0, -DIMENSION_RAISED * paint->now.size, TN_ALIGN_CENTRE, text);
+    tn_paint_restore(paint);
+}
+
+void tn_paint_dimension(tn_paint *paint, const tn_dimension *d)
+{
+    const tn_device_operations *does = paint->device ? paint->device->operations : NULL;
+    double dx = d->to[0] - d->from[0], dy = d->to[1] - d->from[1], length = hypot(dx, dy);
+    tn_paint_new_path(paint);
+    if (!draws(paint) || !(length > 0))
+        return;
+    const double along[2] = {dx / length, dy / length}, aside[2] = {along[1], -along[0]},
+                 ends[2][2] = {{d->from[0] + d->offset * aside[0], d->from[1] + d->offset * aside[1]},
+                               {d->to[0] + d->offset * aside[0], d->to[1] + d->offset * aside[1]}};
+    tn_drawn_dimension drawn = {.text = d->text};
+    place(paint, d->from[0], d->from[1], &drawn.from[0], &drawn.from[1]);
+    place(paint, d->to[0], d->to[1], &drawn.to[0], &drawn.to[1]);
+    for (int i = 0; i < 2; i++)
+        place(paint, ends[i][0], ends[i][1], &drawn.line[i][0], &drawn.line[i][1]);
+    if (does->begin_dimension)
+        note(paint, does->begin_dimension(paint->device, &drawn));
+    trace_dimension(paint, d, ends, along, aside);
+    write_dimension(paint, d->text, ends);
+    if (does->begin_dimension && draws(paint))
+        note(paint, does->end_dimension(paint->device));
+}
+
+/* ---- drawings to scale */
+
+void tn_paint_view_begin(tn_paint *paint, const tn_drawn_view *view)
+{
+    tn_drawn_view placed = *view;
+    double scale = paint->now.axes.scale;
+    place(paint, view->x, view->y, &placed.x, &placed.y);
+    placed.width *= scale;
+    placed.height *= scale;
+    if (draws(paint) && paint->device->operations->begin_view)
+        note(paint, paint->device->operations->begin_view(paint->device, &placed));
+}
+
+void tn_paint_view_end(tn_paint *paint)
+{
+    if (draws(paint) && paint->device->operations->end_view)
+        note(paint, paint->device->operations->end_view(paint->device));
 }
 
 /* ---- pixels */
@@ -402,7 +719,7 @@ void tn_paint_group_end(tn_paint *paint)
 
 void tn_paint_target(tn_paint *paint, double x, double y, double width, double height)
 {
-    if (!draws(paint) || !paint->device->operations->target || paint->now.axes.angle != 0)
+    if (!draws(paint) || !paint->device->operations->target || paint->now.axes.angle != 0 || paint->now.axes.mirrored)
         return;
     double scale = paint->now.axes.scale, left, top;
     place(paint, x, y, &left, &top);

@@ -46,6 +46,61 @@ void tn_paint_dash(tn_paint *paint, const double *dashes, size_t count, double o
 
 void tn_paint_even_odd(tn_paint *paint, bool even_odd);
 
+/* ---- what is drawn means something: layers, weights, hatches, symbols, dimensions and drawings to scale. A picture of
+ * pixels or a PDF shows them as paths; a file for drawing programs (DXF) keeps what they are, and an SVG keeps symbols
+ * and hatches. Nothing of it has to be said */
+
+/* From now on, until the state is restored: the layer (runtime/draw/device/layers.def) of what is drawn. */
+void tn_paint_layer(tn_paint *paint, tn_layer layer);
+
+/* The widths of lines on paper: 0.5, 0.35, 0.25 and 0.18 mm. */
+typedef enum tn_weight { TN_WEIGHT_CUT, TN_WEIGHT_SEEN, TN_WEIGHT_THIN, TN_WEIGHT_HATCH } tn_weight;
+
+/* The pen is so wide, however the state is scaled. */
+void tn_paint_weight(tn_paint *paint, tn_weight weight);
+
+/* Does what is filled cover what was drawn below it? Otherwise (DXF) whatever is hidden should not be drawn: a face is
+ * drawn by the lines that are seen of it. Nothing white and nothing translucent is filled there. */
+bool tn_paint_covers(const tn_paint *paint);
+
+/* Fills the path with a pattern (runtime/draw/device/hatches.h), by the pen and in the colour of the state, its lines
+ * `size` times as far apart as the pattern has them and counted from the state's origin: regions that are hatched apart
+ * fit together. The path is gone then. */
+void tn_paint_hatch(tn_paint *paint, tn_hatch hatch, double size);
+
+/* A symbol: a shape with a name, as a door or a bath. `draw` draws it about the origin, with a state that is new but
+ * for its scale, without lettering, which would be mirrored. It is called once or often, and draws the same for one
+ * name and scale within a picture: the name says all that its shape depends on ("DOOR-900", "BATH-1700x700"), in
+ * letters, digits, `-` and `_`. */
+typedef struct tn_drawn_symbol {
+    const char *name;
+    void (*draw)(tn_paint *paint, const void *of);
+    const void *of;
+} tn_drawn_symbol;
+
+/* Draws a symbol with its origin at (x, y): mirrored from left to right if asked for, then turned. A path at hand is
+ * lost. */
+void tn_paint_symbol(tn_paint *paint, const tn_drawn_symbol *symbol, double x, double y, double angle, bool mirrored);
+
+/* A dimension: the distance of two points along a line that is parallel to them, `offset` aside (to the left as one
+ * goes from the first to the second; negative: to the right). */
+typedef struct tn_dimension {
+    double from[2], to[2];
+    double offset;
+    const char *text;
+} tn_dimension;
+
+/* Draws it with the state's pen, colour and face: lines out from the points, the line between them, an oblique stroke
+ * at each of its ends, and the text above its middle, to be read from below or from the right. A path at hand is lost.
+ * The text is as it is given: a caller asks tn_paint_text_width whether it has room. */
+void tn_paint_dimension(tn_paint *paint, const tn_dimension *dimension);
+
+/* What is drawn until its end is a drawing to scale, 1:scale of points, within a frame in the state's units: in a DXF
+ * it stands in model space at its true size, and a viewport shows it on the sheet. All views of a picture have one
+ * scale and one measure, and they do not nest. What is drawn in no view belongs to the sheet. */
+void tn_paint_view_begin(tn_paint *paint, const tn_drawn_view *view);
+void tn_paint_view_end(tn_paint *paint);
+
 /* ---- paths */
 
 void tn_paint_new_path(tn_paint *paint);
@@ -73,6 +128,10 @@ void tn_paint_clip(tn_paint *paint);
 /* ---- lettering (runtime/draw/type.h sets it) */
 
 void tn_paint_face(tn_paint *paint, double size, bool bold);
+
+/* The same, by the height of capitals: 2.5 mm on paper are TN_POINTS_PER_MM * 2.5. */
+#define TN_POINTS_PER_MM (72 / 25.4)
+void tn_paint_capitals(tn_paint *paint, double height, bool bold);
 
 /* Of a text in the face. */
 double tn_paint_text_width(const tn_paint *paint, const char *text);

@@ -8,6 +8,15 @@
 #define TARTAN_DRAW_DEVICE_DEVICE_H
 
 #include "runtime/base/watch.h"
+#include "runtime/draw/device/hatches.h"
+
+/* What something that is drawn means (layers.def). */
+typedef enum tn_layer {
+#define LAYER(id, aia, iso, colour, weight) TN_LAYER_##id,
+#include "runtime/draw/device/layers.def"
+#undef LAYER
+    TN_LAYER_COUNT
+} tn_layer;
 
 typedef enum tn_drawn_step_kind { TN_DRAWN_MOVE, TN_DRAWN_LINE, TN_DRAWN_ARC, TN_DRAWN_CLOSE } tn_drawn_step_kind;
 
@@ -65,6 +74,32 @@ typedef struct tn_pixels {
     double x, y, pixel;
 } tn_pixels;
 
+/* A pattern over a region: its lines, `scale` times as far apart, counted from (x, y). */
+typedef struct tn_hatched {
+    tn_hatch hatch;
+    double x, y, angle, scale;
+} tn_hatched;
+
+/* Where a symbol is used: mirrored from left to right, then turned, then its origin at (x, y). */
+typedef struct tn_symbol_place {
+    double x, y, angle;
+    bool mirrored;
+} tn_symbol_place;
+
+/* A drawing to scale, and its frame on the page. */
+typedef struct tn_drawn_view {
+    const char *name;
+    double scale; /* 1:scale */
+    bool feet;    /* measured in feet and inches; otherwise metric */
+    double x, y, width, height;
+} tn_drawn_view;
+
+/* A length that is given: its ends, and those of the line that shows it. */
+typedef struct tn_drawn_dimension {
+    double from[2], to[2], line[2][2];
+    const char *text;
+} tn_drawn_dimension;
+
 typedef struct tn_device tn_device;
 
 typedef struct tn_device_operations {
@@ -75,6 +110,20 @@ typedef struct tn_device_operations {
     /* From now on only within the path, too; ends what began last. */
     tn_status (*begin_clip)(tn_device *device, const tn_drawn_path *path);
     tn_status (*end_clip)(tn_device *device);
+    /* A path filled with a pattern, by a pen. NULL: lines are drawn. */
+    tn_status (*hatch)(tn_device *device, const tn_drawn_path *path, const tn_hatched *hatched, const tn_pen *pen,
+                       const tn_ink *ink);
+    /* What is drawn until its end, with its origin at (0, 0) of the page, is the symbol of that number, the first being
+     * 0 and each begun once; NULL: symbols are drawn wherever they are used. */
+    tn_status (*begin_symbol)(tn_device *device, size_t number, const char *name);
+    tn_status (*end_symbol)(tn_device *device);
+    tn_status (*use_symbol)(tn_device *device, size_t number, const tn_symbol_place *place);
+    /* What is drawn until its end shows the dimension; NULL: nothing is said. */
+    tn_status (*begin_dimension)(tn_device *device, const tn_drawn_dimension *dimension);
+    tn_status (*end_dimension)(tn_device *device);
+    /* What is drawn until its end belongs to a drawing to scale; NULL: nothing is said. */
+    tn_status (*begin_view)(tn_device *device, const tn_drawn_view *view);
+    tn_status (*end_view)(tn_device *device);
     /* What is drawn until its end is said to be that; NULL: nothing is said. */
     tn_status (*begin_group)(tn_device *device, const char *name, size_t number);
     tn_status (*end_group)(tn_device *device);
@@ -89,7 +138,9 @@ typedef struct tn_device_operations {
 /* Begins what a device is. */
 struct tn_device {
     const tn_device_operations *operations;
-    double pixel; /* the side of a pixel, in points; 0: there are none */
+    double pixel;   /* the side of a pixel, in points; 0: there are none */
+    bool outlines;  /* what is filled does not cover what was drawn below it */
+    tn_layer layer; /* of what is being drawn */
 };
 
 #endif

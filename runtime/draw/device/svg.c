@@ -22,10 +22,16 @@ typedef struct text {
     size_t size, capacity;
 } text;
 
-typedef struct clip {
+/* What is defined once and used by its number: clips, patterns. */
+typedef struct definition {
     uint64_t hash;
-    char *outline; /* owned */
-} clip;
+    char *text; /* owned */
+} definition;
+
+typedef struct definitions {
+    definition *items; /* owned */
+    size_t count, capacity;
+} definitions;
 
 /* A point of the page, in thousandths of a point. */
 typedef struct grid_point {
@@ -39,8 +45,7 @@ typedef struct svg {
     grid_point at, start;   /* where it is, and where its subpath began */
     bool open;              /* a stroke that others may still go on */
     char style[STYLE_ROOM]; /* of that stroke */
-    clip *clips;            /* owned; its index is in its id */
-    size_t clip_count, clip_capacity;
+    definitions clips, patterns;
     char prefix[16]; /* of ids */
 } svg;
 
@@ -321,7 +326,7 @@ static tn_status refuse_pixels(tn_device *device, const tn_pixels *pixels)
     return TN_INTERNAL;
 }
 
-/* ---- clips */
+/* ---- what is defined once */
 
 static uint64_t hash_of(const char *bytes)
 {
@@ -331,37 +336,47 @@ static uint64_t hash_of(const char *bytes)
     return hash;
 }
 
-/* The number of the clip of the path at hand, or the count of clips where there is none yet. */
-static size_t find_clip(const svg *s, uint64_t hash)
+/* The number of what has this text, the next one if it is new. */
+static tn_status find_or_add(definitions *among, const char *words, size_t *number, bool *is_new)
 {
+    uint64_t hash = hash_of(words);
     size_t i = 0;
-    while (i < s->clip_count && (s->clips[i].hash != hash || strcmp(s->clips[i].outline, s->path.bytes) != 0))
+    while (i < among->count && (among->items[i].hash != hash || strcmp(among->items[i].text, words) != 0))
         i++;
-    return i;
-}
-
-static tn_status new_clip(svg *s, uint64_t hash, bool even_odd)
-{
-    if (!tn_array_reserve(&s->clips, &s->clip_capacity, s->clip_count, 1, sizeof *s->clips))
+    *number = i;
+    *is_new = i == among->count;
+    if (!*is_new)
+        return TN_OK;
+    if (!tn_array_reserve(&among->items, &among->capacity, i, 1, sizeof *among->items))
         return TN_MEMORY;
-    char *outline = strdup(s->path.bytes);
-    if (!outline)
+    char *copy = strdup(words);
+    if (!copy)
         return TN_MEMORY;
-    fprintf(s->out, "<clipPath id=\"%sc%zu\"><path%s d=\"%s\"/></clipPath>\n", s->prefix, s->clip_count,
-            even_odd ? " clip-rule=\"evenodd\"" : "", outline);
-    s->clips[s->clip_count++] = (clip){hash, outline};
+    among->items[among->count++] = (definition){hash, copy};
     return TN_OK;
 }
+
+static void free_definitions(definitions *all)
+{
+    for (size_t i = 0; i < all->count; i++)
+        free(all->items[i].text);
+    free(all->items);
+}
+
+/* ---- clips */
 
 static tn_status begin_clip(tn_device *device, const tn_drawn_path *path)
 {
     svg *s = (svg *)device;
+    size_t number;
+    bool is_new;
     close_stroke(s);
-    if (!append_path(s, path))
+    const char *rule = path->even_odd ? "\" clip-rule=\"evenodd" : "";
+    if (!append_path(s, path) || !append(&s->path, rule, strlen(rule)))
         return TN_MEMORY;
-    uint64_t hash = hash_of(s->path.bytes) + path->even_odd;
-    size_t number = find_clip(s, hash);
-    tn_status status = number == s->clip_count ? new_clip(s, hash, path->even_odd) : TN_OK;
+    tn_status status = find_or_add(&s->clips, s->path.bytes, &number, &is_new);
+    if (status == TN_OK && is_new)
+        fprintf(s->out, "<clipPath id=\"%sc%zu\"><path d=\"%s\"/></clipPath>\n", s->prefix, number, s->path.bytes);
     s->path.size = 0;
     fprintf(s->out, "<g clip-path=\"url(#%sc%zu)\">\n", s->prefix, number);
     return status;
@@ -371,6 +386,101 @@ static tn_status end_group(tn_device *device)
 {
     close_stroke((svg *)device);
     fputs("</g>\n", ((svg *)device)->out);
+    return TN_OK;
+}
+
+/* ---- hatches: a pattern for each direction of lines */
+
+#define PATTERN_WIDE 60.0 /* of lines without dashes: few places where two pieces of a line meet */
+
+/* A tile has its lines at half of how far they are apart; two where dashes are staggered, which are half a period then.
+ * Its corner stands so that the first line, which is the lowest, goes through the pattern's point. */
+static tn_status write_pattern(svg *s, const tn_hatched *h, const tn_hatch_lines *lines, const tn_pen *pen,
+                               const tn_ink *ink, size_t *number)
+{
+    char number_of[8][32], style[STYLE_ROOM], words[1024];
+    double period = lines->dashes[0] + lines->dashes[1], wide = period > 0 ? period : PATTERN_WIDE,
+           apart = lines->apart, angle = h->angle - lines->angle * WHOLE / 360,
+           turn[2] = {tn_cos(h->angle), tn_sin(h->angle)};
+    int rows = lines->shift > 0 ? 2 : 1;
+    double first = (rows - 0.5) * apart, x = turn[0] * lines->x - turn[1] * lines->y + first * tn_sin(angle),
+           y = turn[1] * lines->x + turn[0] * lines->y - first * tn_cos(angle);
+    const double values[] = {wide * h->scale,
+                             rows * apart * h->scale,
+                             h->x + h->scale * x,
+                             h->y + h->scale * y,
+                             angle * 360 / WHOLE,
+                             first * h->scale,
+                             (period > 0 ? lines->dashes[0] : wide) * h->scale,
+                             (first - apart) * h->scale};
+    bool is_new;
+    for (int i = 0; i < 8; i++)
+        write_number(grid_of(values[i]), number_of[i]);
+    write_pen(style, pen, ink);
+    int used = snprintf(words, sizeof words,
+                        " width=\"%s\" height=\"%s\" patternUnits=\"userSpaceOnUse\" "
+                        "patternTransform=\"translate(%s %s)rotate(%s)\"><path%s d=\"M0 %sh%s",
+                        number_of[0], number_of[1], number_of[2], number_of[3], number_of[4], style, number_of[5],
+                        number_of[6]);
+    if (rows > 1)
+        snprintf(words + used, sizeof words - (size_t)used, "M%s %sh%s", number_of[6], number_of[7], number_of[6]);
+    tn_status status = find_or_add(&s->patterns, words, number, &is_new);
+    if (status == TN_OK && is_new)
+        fprintf(s->out, "<pattern id=\"%sh%zu\"%s\"/></pattern>\n", s->prefix, *number, words);
+    return status;
+}
+
+static tn_status hatch(tn_device *device, const tn_drawn_path *path, const tn_hatched *hatched, const tn_pen *pen,
+                       const tn_ink *ink)
+{
+    svg *s = (svg *)device;
+    size_t count;
+    const tn_hatch_lines *lines = tn_hatch_made_of(hatched->hatch, &count);
+    close_stroke(s);
+    if (!append_path(s, path))
+        return TN_MEMORY;
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < count; i++) {
+        size_t number;
+        status = write_pattern(s, hatched, &lines[i], pen, ink, &number);
+        if (status == TN_OK)
+            fprintf(s->out, "<path fill=\"url(#%sh%zu)\"%s d=\"%s\"/>\n", s->prefix, number,
+                    path->even_odd ? " fill-rule=\"evenodd\"" : "", s->path.bytes);
+    }
+    s->path.size = 0;
+    return status;
+}
+
+/* ---- symbols */
+
+static tn_status begin_symbol(tn_device *device, size_t number, const char *name)
+{
+    svg *s = (svg *)device;
+    close_stroke(s);
+    fprintf(s->out, "<defs><g id=\"%ss%zu\" data-name=\"", s->prefix, number);
+    put_text(s->out, name);
+    fputs("\">\n", s->out);
+    return TN_OK;
+}
+
+static tn_status end_symbol(tn_device *device)
+{
+    close_stroke((svg *)device);
+    fputs("</g></defs>\n", ((svg *)device)->out);
+    return TN_OK;
+}
+
+static tn_status use_symbol(tn_device *device, size_t number, const tn_symbol_place *place)
+{
+    svg *s = (svg *)device;
+    bool turned = grid_of(place->angle) != 0 || place->mirrored;
+    close_stroke(s);
+    fprintf(s->out, "<use href=\"#%ss%zu\"", s->prefix, number);
+    put_number(s->out, turned ? " transform=\"translate(" : " x=\"", place->x);
+    put_number(s->out, turned ? " " : "\" y=\"", place->y);
+    if (turned && grid_of(place->angle) != 0)
+        put_number(s->out, ")rotate(", place->angle * 360 / WHOLE);
+    fputs(!turned ? "\"/>\n" : place->mirrored ? ")scale(-1 1)\"/>\n" : ")\"/>\n", s->out);
     return TN_OK;
 }
 
@@ -408,9 +518,8 @@ static tn_status finish(tn_device *device, tn_watch *watch, tn_error *error)
 static void free_svg(tn_device *device)
 {
     svg *s = (svg *)device;
-    for (size_t i = 0; i < s->clip_count; i++)
-        free(s->clips[i].outline);
-    free(s->clips);
+    free_definitions(&s->clips);
+    free_definitions(&s->patterns);
     free(s->path.bytes);
     free(s);
 }
@@ -438,6 +547,10 @@ tn_status tn_svg_new(FILE *out, const tn_svg_options *options, tn_device **devic
         .pixels = refuse_pixels,
         .begin_clip = begin_clip,
         .end_clip = end_group,
+        .hatch = hatch,
+        .begin_symbol = begin_symbol,
+        .end_symbol = end_symbol,
+        .use_symbol = use_symbol,
         .begin_group = begin_group,
         .end_group = end_group,
         .target = write_target,

@@ -1,8 +1,9 @@
 /* Writes pictures as SVG, by itself: the same bytes on every machine.
  *
  * Coordinates are thousandths of a point and paths have no transformation, since browsers lose thin lines of what is
- * drawn large and made small. Strokes of one pen that follow one another are one element, lettering is text in DejaVu
- * Sans or what resembles it, and clips of one outline are one clipPath. */
+ * drawn large and made small; symbols are defined once and turned. Strokes of one pen that follow one another are one
+ * element, lettering is text in DejaVu Sans or what resembles it, hatches are patterns, and clips of one outline are
+ * one clipPath. */
 #ifndef TARTAN_DRAW_DEVICE_SVG_H
 #define TARTAN_DRAW_DEVICE_SVG_H
 

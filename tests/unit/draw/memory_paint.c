@@ -2,6 +2,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,6 +11,31 @@
 #include "runtime/draw/canvas.h"
 #include "runtime/draw/type.h"
 #include "tests/support/failing_memory.h"
+
+static void draw_symbol(tn_paint *paint, const void *of)
+{
+    (void)of;
+    tn_paint_rectangle(paint, 0, 0, 4, 2);
+    tn_paint_fill(paint);
+}
+
+/* Symbols, hatches and dimensions, some more than once. */
+static void draw_meanings(tn_paint *paint)
+{
+    static const tn_dimension dimension = {{10, 10}, {60, 10}, 8, "50"};
+    static const tn_drawn_view view = {"view", 50, false, 0, 0, 100, 100};
+    tn_paint_view_begin(paint, &view);
+    for (int i = 0; i < 30; i++) {
+        char name[16];
+        snprintf(name, sizeof name, "BOX-%d", i / 2);
+        const tn_drawn_symbol symbol = {name, draw_symbol, NULL};
+        tn_paint_symbol(paint, &symbol, 50, 50, i, i % 2);
+        tn_paint_rectangle(paint, i, i, 20, 10);
+        tn_paint_hatch(paint, (tn_hatch)(i % TN_HATCH_COUNT), 1 + i / 2);
+        tn_paint_dimension(paint, &dimension);
+    }
+    tn_paint_view_end(paint);
+}
 
 /* Long paths, states within states, clips within clips: all that grows grows more than once. */
 static void draw(tn_paint *paint)
@@ -29,6 +55,7 @@ static void draw(tn_paint *paint)
         tn_paint_group_end(paint);
         tn_paint_restore(paint);
     }
+    draw_meanings(paint);
     tn_paint_arc(paint, 50, 50, 10, 0, 6);
     tn_paint_fill(paint);
 }

@@ -350,7 +350,7 @@ static void writes_clips_once(void **state)
              "<clipPath id=\"c0\"><path d=\"M0 0h5v1h-5z\"/></clipPath>\n<g clip-path=\"url(#c0)\">\n%s"
              "<clipPath id=\"c1\"><path d=\"M0 0h6v1h-6z\"/></clipPath>\n<g clip-path=\"url(#c1)\">\n%s"
              "</g>\n</g>\n<g clip-path=\"url(#c0)\">\n<path fill=\"none\" stroke=\"#000\" d=\"M0 2h5\"/>\n</g>\n"
-             "<clipPath id=\"c2\"><path clip-rule=\"evenodd\" d=\"M0 0h5v1h-5z\"/></clipPath>\n"
+             "<clipPath id=\"c2\"><path d=\"M0 0h5v1h-5z\" clip-rule=\"evenodd\"/></clipPath>\n"
              "<g clip-path=\"url(#c2)\">\n</g>\n",
              stroke, stroke);
     holds(&d, expected);
@@ -393,6 +393,115 @@ static void nests_groups(void **state)
               "<rect x=\"2\" y=\"4\" width=\"6\" height=\"8.5\" fill-opacity=\"0\"/>\n"
               "<path fill=\"none\" stroke=\"#000\" stroke-width=\"2\" d=\"M0 2h10\"/>\n</g>\n</g>\n"
               "<g data-rule=\"1\">\n<g data-part=\"12\">\n</g>\n</g>\n");
+}
+
+/* ---- symbols, hatches, dimensions */
+
+static void draw_hook(tn_paint *paint, const void *of)
+{
+    tn_paint_move_to(paint, 0, 0);
+    tn_paint_line_to(paint, *(const double *)of, 0);
+    tn_paint_line_to(paint, *(const double *)of, 1);
+    tn_paint_stroke(paint);
+}
+
+/* A symbol is defined once for each scale, in a state of its own, and leaves the state as it was. */
+static void defines_symbols_once(void **state)
+{
+    static const double three = 3;
+    static const tn_drawn_symbol hook = {"HOOK-<3>", draw_hook, &three};
+    (void)state;
+    drawing d;
+    begin(&d);
+    tn_paint_colour(d.paint, 1, 0, 0);
+    tn_paint_symbol(d.paint, &hook, 10, 20, 0, false);
+    tn_paint_symbol(d.paint, &hook, 10, 30.5, PI / 2, false);
+    tn_paint_translate(d.paint, 1, 2);
+    tn_paint_symbol(d.paint, &hook, 10, 20, PI, true);
+    tn_paint_symbol(d.paint, &hook, 10, 20, 0, true);
+    tn_paint_scale(d.paint, 2);
+    tn_paint_symbol(d.paint, &hook, 10, 20, 0, false);
+    line(&d, 1);
+    holds(&d, "<defs><g id=\"s0\" data-name=\"HOOK-&lt;3&gt;\">\n<path fill=\"none\" stroke=\"#000\" d=\"M0 0h3v1\"/>\n"
+              "</g></defs>\n<use href=\"#s0\" x=\"10\" y=\"20\"/>\n"
+              "<use href=\"#s0\" transform=\"translate(10 30.5)rotate(90)\"/>\n"
+              "<use href=\"#s0\" transform=\"translate(11 22)rotate(180)scale(-1 1)\"/>\n"
+              "<use href=\"#s0\" transform=\"translate(11 22)scale(-1 1)\"/>\n"
+              "<defs><g id=\"s1\" data-name=\"HOOK-&lt;3&gt;\">\n"
+              "<path fill=\"none\" stroke=\"#000\" stroke-width=\"2\" d=\"M0 0h6v2\"/>\n</g></defs>\n"
+              "<use href=\"#s1\" x=\"21\" y=\"42\"/>\n"
+              "<path fill=\"none\" stroke=\"#f00\" stroke-width=\"2\" d=\"M1 4h10\"/>\n");
+}
+
+static void draw_word(tn_paint *paint, const void *of)
+{
+    tn_paint_text(paint, 0, 0, TN_ALIGN_LEFT, of);
+}
+
+static void refuses_words_in_symbols(void **state)
+{
+    static const tn_drawn_symbol word = {"WORD", draw_word, "word"};
+    (void)state;
+    drawing d;
+    tn_error error;
+    begin(&d);
+    tn_paint_symbol(d.paint, &word, 10, 20, 0, false);
+    assert_int_equal(tn_canvas_commit(d.canvas, &error), TN_INTERNAL);
+    tn_canvas_free(d.canvas);
+}
+
+/* One pattern for all regions of one pen, counted from the state's origin, not from the region. */
+static void fills_with_patterns(void **state)
+{
+    (void)state;
+    drawing d;
+    begin(&d);
+    for (int i = 0; i < 3; i++) {
+        tn_paint_rectangle(d.paint, 10 * i, 0, 5, 5);
+        tn_paint_line_width(d.paint, i < 2 ? 0.5 : 0.25);
+        tn_paint_hatch(d.paint, TN_HATCH_TILES, 0.5);
+    }
+    tn_paint_hatch(d.paint, TN_HATCH_TILES, 0.5); /* nothing */
+    char *written = end(&d);
+    assert_non_null(strstr(written, "<pattern id=\"h0\" width=\"30\" height=\"2\" patternUnits=\"userSpaceOnUse\" "
+                                    "patternTransform=\"translate(0 -1)rotate(0)\"><path stroke=\"#000\" "
+                                    "stroke-width=\".5\" d=\"M0 1h30\"/></pattern>\n"
+                                    "<path fill=\"url(#h0)\" d=\"M0 0h5v5h-5z\"/>\n<pattern id=\"h1\""));
+    assert_non_null(strstr(written, "<path fill=\"url(#h0)\" d=\"M10 0h5v5h-5z\"/>\n<path fill=\"url(#h1)\""));
+    assert_non_null(strstr(written, "<pattern id=\"h3\""));
+    assert_null(strstr(written, "<pattern id=\"h4\""));
+    free(written);
+}
+
+/* Millimetres on paper, whatever the scale. */
+static void weighs_lines_on_paper(void **state)
+{
+    (void)state;
+    drawing d;
+    begin(&d);
+    tn_paint_scale(d.paint, 4);
+    tn_paint_weight(d.paint, TN_WEIGHT_CUT);
+    line(&d, 1);
+    holds(&d, "<path fill=\"none\" stroke=\"#000\" stroke-width=\"1.417\" d=\"M0 4h20\"/>\n");
+}
+
+/* The text is above the line for who reads it from below or from the right, whichever point comes first. */
+static void turns_dimensions_to_readers(void **state)
+{
+    static const double ends[4][2] = {{100, 50}, {0, 50}, {50, 100}, {50, 0}};
+    static const char *const turns[4] = {"", "", "rotate(-90 ", "rotate(-90 "};
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        drawing d;
+        begin(&d);
+        const tn_dimension dimension = {{50, 50}, {ends[i][0], ends[i][1]}, 10, "50"};
+        tn_paint_dimension(d.paint, &dimension);
+        char *written = end(&d);
+        const char *text = strstr(written, "<text ");
+        assert_non_null(text);
+        assert_true(turns[i][0] ? strstr(text, turns[i]) != NULL : strstr(text, "rotate") == NULL);
+        free(written);
+    }
 }
 
 /* ---- elements, and what an SVG does not have */
@@ -450,6 +559,11 @@ int main(void)
         cmocka_unit_test(writes_clips_once),
         cmocka_unit_test(clips_to_nothing),
         cmocka_unit_test(nests_groups),
+        cmocka_unit_test(defines_symbols_once),
+        cmocka_unit_test(refuses_words_in_symbols),
+        cmocka_unit_test(fills_with_patterns),
+        cmocka_unit_test(weighs_lines_on_paper),
+        cmocka_unit_test(turns_dimensions_to_readers),
         cmocka_unit_test(numbers_elements),
         cmocka_unit_test(has_neither_pages_nor_pixels),
     };
