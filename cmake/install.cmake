@@ -15,9 +15,6 @@ file(RELATIVE_PATH TARTAN_PC_UP ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_I
 # What links a program with threads, without CMake.
 set(TARTAN_PC_THREADS "-pthread -lm")
 
-# The binary interface has a version of its own, which exports.map names, too: it changes with the interface, whatever version of Tartan that comes
-# with.
-set(TARTAN_SOVERSION 0.3)
 set(TARTAN_LIBRARIES "")
 
 # tartan_library(NAME FOLDERS TARGETS... USES LIBRARIES... NEEDS LIBRARIES... MODULES PKG-CONFIG-MODULES... FLAGS FLAGS...): the objects of the
@@ -26,7 +23,8 @@ function(tartan_library name)
   cmake_parse_arguments(LIBRARY "" "" "FOLDERS;USES;NEEDS;MODULES;FLAGS" ${ARGN})
   set(objects "")
   foreach(folder ${LIBRARY_FOLDERS})
-    list(APPEND objects $<TARGET_OBJECTS:${folder}>)
+    tartan_archive_of(${folder} archive)
+    list(APPEND objects $<TARGET_OBJECTS:${archive}>)
   endforeach()
   foreach(kind shared static)
     set(target lib${name}-${kind})
@@ -111,6 +109,17 @@ endif()
 tartan_library(tartan FOLDERS ${TARTAN_COMPILER_FOLDERS} USES ${parts} tartan-growth tartan-runtime
   NEEDS PkgConfig::JANSSON PkgConfig::GMP PkgConfig::XXHASH PkgConfig::ZSTD ${threads} MODULES jansson libzstd)
 
+# The command loads the parts from the libraries beside it. Where the system looks anyway, nothing is said of where they are.
+if(TARTAN_LOAD_PARTS)
+  foreach(part ${parts})
+    add_dependencies(tartan lib${part}-shared)
+  endforeach()
+  if(CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+    set_target_properties(tartan PROPERTIES BUILD_RPATH "$ORIGIN")
+  else()
+    set_target_properties(tartan PROPERTIES INSTALL_RPATH "$ORIGIN;$ORIGIN/../${CMAKE_INSTALL_LIBDIR}" BUILD_WITH_INSTALL_RPATH ON)
+  endif()
+endif()
 install(TARGETS tartan RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY include/tartan DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY stdlib DESTINATION ${CMAKE_INSTALL_DATADIR}/tartan)

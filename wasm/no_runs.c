@@ -1,7 +1,7 @@
 /* Runs of evolution live in folders and databases, of which a page has none, and the desk refuses these questions
  * before they are asked. That they are here keeps all that would answer them out of what a page loads. */
 #include "ask/session/questions.h"
-#include "runtime/base/error.h"
+#include "runtime/base/part.h"
 
 static tn_status refuse(tn_session *session, tn_reply *answer)
 {

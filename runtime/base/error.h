@@ -60,14 +60,4 @@ void tn_error_help(tn_error *error, const char *format, ...) __attribute__((form
 /* Adds a place in an input text to an error already filled. */
 void tn_error_place(tn_error *error, uint64_t line, size_t column, size_t column_end);
 
-/* The parts that a build may leave out, and the error of whoever asks for one that is not there.
- *
- * A folder that is a part has a file absent.c, which is built in place of the others where the part is left out
- * (cmake/folder.cmake): its functions fail with this error. */
-
-typedef enum tn_optional_part { TN_WITH_DRAW, TN_WITH_MESH, TN_WITH_STORE } tn_optional_part;
-
-/* TN_INVALID (E0907), naming the part, what wants it ("drawing pictures"), and how to get it. */
-tn_status tn_part_absent(tn_optional_part part, const char *wanted, tn_error *error);
-
 #endif

@@ -40,3 +40,21 @@ part mesh grow square -n 1 --smooth 2 -o "$scratch/smooth.obj"
 part store sample lahave-houses 3 --seed 7 -o "$scratch/sample.sqlite"
 printf "grammar \"words\"\nproblem word \"tartan\"\npopulation 4\ngenerations 1\n" >"$scratch/word.study"
 part store evolve examples/breeding-surfaces/breed.study -o "$scratch/run" --generations 0
+
+# The command alone, without the libraries that it loads parts from: it does what needs none, and says what it cannot load. A build that links
+# the parts has nothing to load, and where Tartan is installed the system finds them.
+if grep -q '^TARTAN_LOAD_PARTS:BOOL=ON' "$cache" && grep -q '^TARTAN_WITH_DRAW:BOOL=ON' "$cache" && ! ldconfig -p | grep -q libtartan-draw; then
+    if readelf -d "$TARTAN" | grep NEEDED | grep -E 'cairo|sqlite|OpenMesh|stdc'; then
+        echo 'the command needs these at each start'
+        exit 1
+    fi
+    mkdir "$scratch/alone"
+    cp "$TARTAN" "$scratch/alone/tartan"
+    alone() { env -u LD_LIBRARY_PATH TARTAN_PATH="${TARTAN_PATH:-stdlib}" "$scratch/alone/tartan" "$@"; }
+    alone draw lahave-houses --sample 1 --seed 7 -o "$scratch/alone.svg" >/dev/null
+    status=0
+    alone draw lahave-houses --sample 1 --seed 7 -o "$scratch/alone.png" >/dev/null 2>"$scratch/said" || status=$?
+    [ "$status" = 2 ] && grep -q 'error\[E0907\].*cannot be loaded.*libtartan-draw' "$scratch/said" && grep -q 'libcairo2' "$scratch/said" ||
+        { echo "a part that cannot be loaded: status $status, $(cat "$scratch/said")"; exit 1; }
+    [ ! -e "$scratch/alone.png" ] || { echo 'a picture that could not be drawn is there'; exit 1; }
+fi

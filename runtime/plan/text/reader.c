@@ -10,6 +10,7 @@
 #include "runtime/base/array.h"
 #include "runtime/base/error.h"
 #include "runtime/base/file.h"
+#include "runtime/base/part.h"
 #include "runtime/plan/text/pack.h"
 
 #define INPUT_BYTES (size_t)(256u << 10) /* read at a time */

@@ -8,6 +8,7 @@
 #include "runtime/base/bytes.h"
 #include "runtime/base/error.h"
 #include "runtime/base/file.h"
+#include "runtime/base/part.h"
 #include "runtime/plan/text/field_columns.h"
 #include "runtime/plan/text/pack.h"
 
