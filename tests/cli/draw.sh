@@ -104,4 +104,78 @@ golden rules_and_plans "tartan draw parts.plan --rule far --sample 3 -o $scratch
     echo 'any))))))))))'
 } >"$scratch/deep.plan"
 golden rule_too_large "tartan draw $scratch/deep.plan --rule deep -o $scratch/x.svg"
+# Rules: what is so for some value of a field is drawn once, with its words; a call as what it means; trays in the sheet's colours
+# and names.
+alike=$files/alike.plan
+"$TARTAN" draw "$alike" --sample 12 -o "$scratch/alike.svg"
+for rule in twin each-use growing nested wet alike-pair no-baths; do
+    "$TARTAN" draw "$alike" --rule "$rule" -o "$scratch/rule-$rule.svg"
+done
+python3 - "$scratch" <<'PYTHON' || fail 'rules are not drawn as they should be'
+import collections, re, sys, xml.etree.ElementTree as tree
+
+NAMES = {"kitchen", "bath", "bedroom", "living"}
+
+
+def words(name):
+    return [e.text for e in tree.parse(f"{sys.argv[1]}/{name}.svg").iter("{http://www.w3.org/2000/svg}text") if e.text]
+
+
+def colours(name):
+    """The fills that are no grey, in their order."""
+    fills = re.findall(r'fill="#([0-9a-f]{6}|[0-9a-f]{3})"', open(f"{sys.argv[1]}/{name}.svg").read())
+    fills = ["".join(c * 2 for c in f) if len(f) == 3 else f for f in fills]
+    return [f for f in fills if len({f[0:2], f[2:4], f[4:6]}) > 1]
+
+
+sheet = words("alike")
+legend = [w for w in sheet[sheet.index("LEGEND"):] if w in NAMES][:4]
+assert legend == ["kitchen", "bath", "bedroom", "living"], legend
+tones = dict(zip(legend, dict.fromkeys(colours("alike"))))
+assert len(tones) == 4 and len(set(tones.values())) == 4, tones
+assert collections.Counter(w for w in sheet if w in ("street", "garden"))["street"] >= 12, "sides are not said"
+
+assert words("rule-twin")[2:] == ["some v in use", "v", "v, garden terrace"], words("rule-twin")
+assert words("rule-each-use")[1:] == ["every u in use", "u"], words("rule-each-use")
+assert words("rule-growing")[1:] == ["some v, w in width: v < w", "v", "w"], words("rule-growing")
+assert [w for w in words("rule-nested") if w.startswith("some")] == ["some v in use", "some w in width"], words("rule-nested")
+assert words("rule-alike-pair")[1:] == ["some v in use", "beside(tray(v), tray(v))"], words("rule-alike-pair")
+wet = words("rule-wet")
+assert "pair(kitchen, bath)" in wet and "pair(bath, bedroom)" in wet, wet
+assert collections.Counter(w for w in wet if w in NAMES) == {"kitchen": 2, "bath": 4, "bedroom": 2}, wet
+assert set(colours("rule-wet")) == {tones["kitchen"], tones["bath"], tones["bedroom"]}, (colours("rule-wet"), tones)
+assert "not bath" in words("rule-no-baths") and set(colours("rule-no-baths")) <= set(tones.values()) - {tones["bath"]}
+PYTHON
+
+# The dashes of a room of several storeys leave its name free.
+python3 - "$scratch/alike.svg" <<'PYTHON' || fail 'a dashed cross goes through a name'
+import re, sys
+
+text = open(sys.argv[1]).read()
+segments = []
+for element in re.findall(r'<path[^>]*stroke-dasharray="3 1.6"[^>]*/>', text):
+    x = y = 0
+    for kind, numbers in re.findall(r"([mMlL])([^mMlL]*)", re.search(r' d="([^"]*)"', element)[1]):
+        values = [float(n) for n in re.findall(r"-?(?:[0-9]+\.?[0-9]*|\.[0-9]+)", numbers)]
+        for i in range(0, len(values), 2):
+            to = (values[i], values[i + 1]) if kind.isupper() else (x + values[i], y + values[i + 1])
+            if kind in "lL" or i > 0:
+                segments.append((x, y, *to))
+            x, y = to
+names = 0
+for element, word in re.findall(r"<text([^>]*font-weight=\"bold\"[^>]*text-anchor=\"middle\"[^>]*)>([^<]*)</text>", text):
+    at = {k: float(v) for k, v in re.findall(r' (x|y|font-size)="([0-9.]*)"', element)}
+    across, down = at["font-size"] * 0.2 * len(word), at["font-size"] * 0.3  # half of what the letters take, at least
+    if "rotate" in element:
+        across, down = down, across
+        middle = (at["x"] - at["font-size"] * 0.36, at["y"])
+    else:
+        middle = (at["x"], at["y"] - at["font-size"] * 0.36)
+    names += 1
+    for x1, y1, x2, y2 in segments:
+        for k in range(101):
+            x, y = x1 + (x2 - x1) * k / 100, y1 + (y2 - y1) * k / 100
+            assert abs(x - middle[0]) > across or abs(y - middle[1]) > down, (word, middle, (x1, y1, x2, y2))
+assert names >= 24 and len(segments) >= 24, (names, len(segments))
+PYTHON
 finish

@@ -62,13 +62,18 @@ static double heading_room(const drawing *d)
     return (d->grouped ? HEADING_ROOM : 0) + (d->captioned ? CAPTION_ROOM : 0);
 }
 
+static double sides_room(const drawing *d)
+{
+    return tn_draw_two_sided(&d->roles) ? TN_SIDES_ROOM : 0;
+}
+
 /* The size of a cell at a scale: points a nanometre for a plan to scale, points a point for a table. */
 static void size_cells(drawing *d, double factor)
 {
     d->factor = factor;
     if (d->roles.to_scale) {
         double marks = d->roles.public_end == TN_NO_FIELD ? 0 : 2 * TN_MARK_ROOM;
-        d->cell_width = d->extent.width * factor + marks;
+        d->cell_width = d->extent.width * factor + marks + sides_room(d);
         d->cell_height = (d->extent.above + d->extent.below) * factor + tn_draw_dimension_room(&d->extent) +
                          NUMBER_ROOM + heading_room(d);
     } else {
@@ -341,8 +346,10 @@ static void draw_cell(const drawing *d, tn_paint *paint, const tn_drawn_plan *pl
         tn_type_fit(paint, x, y - CAPTION_ROOM + CAPTION_SIZE, TN_ALIGN_LEFT, d->cell_width, plan->caption);
     }
     if (d->roles.to_scale) {
-        double left = x + (d->roles.public_end == TN_NO_FIELD ? 0 : TN_MARK_ROOM);
-        double spine = y + d->extent.above * d->factor, bottom = spine + d->extent.below * d->factor;
+        double left = x + sides_room(d) + (d->roles.public_end == TN_NO_FIELD ? 0 : TN_MARK_ROOM);
+        double above = d->extent.above * d->factor, spine = y + above, bottom = spine + d->extent.below * d->factor;
+        if (tn_draw_two_sided(&d->roles) && plan->length > 0)
+            tn_draw_sides(paint, &d->roles, x, spine, above, bottom - spine);
         tn_draw_plan(paint, &d->roles, plan, d->factor, left, spine, bottom, &d->extent);
         draw_number(d, paint, plan, left, y + height - 2, d->cell_width - (left - x));
         return;

@@ -54,6 +54,12 @@ double tn_draw_dimension_room(const tn_draw_extent *extent);
 void tn_draw_plan(tn_paint *paint, const tn_draw_roles *roles, const tn_drawn_plan *plan, double scale, double x,
                   double y, double bottom, const tn_draw_extent *extent);
 
+/* Do plans have bands on both sides of their spine? Then a sheet says what lies on which, beside each plan: the
+ * outermost bands, upright in a column of this width whose left edge is at x; above and below: the depths there. */
+#define TN_SIDES_ROOM 9.0
+bool tn_draw_two_sided(const tn_draw_roles *roles);
+void tn_draw_sides(tn_paint *paint, const tn_draw_roles *roles, double x, double spine, double above, double below);
+
 /* The pieces of it that the legend shows too. */
 
 /* A fill of a band: VALUE record `value`. Fills of one role but of different names are told apart. */
@@ -73,7 +79,16 @@ void tn_draw_hatch(tn_paint *paint, const tn_draw_roles *roles, uint32_t value, 
 #define TN_INSIDE_LEAST 4.6 /* where that does not fit */
 void tn_draw_inside(tn_paint *paint, const char *text, double size, bool hatched, double x, double y, double width,
                     double height);
-void tn_draw_level_mark(tn_paint *paint, uint32_t levels, double x, double y, double width, double height);
+
+/* The same text's own room, in the middle of a rectangle of that size. */
+void tn_draw_inside_room(tn_paint *paint, const char *text, double size, double *width, double *height);
+
+typedef struct tn_draw_area {
+    double x, y, width, height;
+} tn_draw_area;
+
+/* A cross of dashes over the area, which leaves `spared` free, and from three storeys on their number. */
+void tn_draw_level_mark(tn_paint *paint, uint32_t levels, tn_draw_area area, tn_draw_area spared);
 void tn_draw_hall_mark(tn_paint *paint, double x, double y, double radius);
 void tn_draw_public_mark(tn_paint *paint, double x, double y, double dx,
                          double dy); /* tip at (x, y), pointing (dx, dy) */

@@ -197,24 +197,50 @@ double tn_draw_dimension_room(const tn_draw_extent *extent)
            (extent->mark_below ? TN_MARK_ROOM : 0) + 4;
 }
 
-void tn_draw_level_mark(tn_paint *paint, uint32_t levels, double x, double y, double width, double height)
+/* Where a line from (x, y), so much across and down, is within a stretch of one axis: part of its length. */
+static void within(double at, double by, double low, double high, double *from, double *to)
+{
+    if (fabs(by) < 1e-9) {
+        if (at <= low || at >= high)
+            *to = *from;
+        return;
+    }
+    double a = (low - at) / by, b = (high - at) / by;
+    *from = fmax(*from, fmin(a, b));
+    *to = fmin(*to, fmax(a, b));
+}
+
+/* A line that leaves an area free. */
+static void line_around(tn_paint *paint, double x, double y, double across, double down, tn_draw_area spared)
+{
+    double from = 0, to = 1;
+    within(x, across, spared.x, spared.x + spared.width, &from, &to);
+    within(y, down, spared.y, spared.y + spared.height, &from, &to);
+    tn_paint_move_to(paint, x, y);
+    if (from < to) {
+        tn_paint_line_to(paint, x + from * across, y + from * down);
+        tn_paint_move_to(paint, x + to * across, y + to * down);
+    }
+    tn_paint_line_to(paint, x + across, y + down);
+}
+
+void tn_draw_level_mark(tn_paint *paint, uint32_t levels, tn_draw_area area, tn_draw_area spared)
 {
     static const double dashes[] = {3, 1.6};
     tn_paint_save(paint);
     tn_paint_dash(paint, dashes, 2, 0);
     tn_paint_line_width(paint, 0.4);
-    tn_paint_move_to(paint, x, y);
-    tn_paint_line_to(paint, x + width, y + height);
-    tn_paint_move_to(paint, x + width, y);
-    tn_paint_line_to(paint, x, y + height);
+    line_around(paint, area.x, area.y, area.width, area.height, spared);
+    line_around(paint, area.x + area.width, area.y, -area.width, area.height, spared);
     tn_paint_stroke(paint);
     tn_paint_restore(paint);
     if (levels < 3)
         return;
     char text[16];
+    bool beside = spared.width > 0 && spared.y < area.y + 7; /* of a name that reaches as high */
     snprintf(text, sizeof text, "%u", levels);
     tn_paint_face(paint, DIMENSION_SIZE, false);
-    tn_type_line(paint, x + width / 2, y + 7, TN_ALIGN_CENTRE, text);
+    tn_type_line(paint, beside ? (area.x + spared.x) / 2 : area.x + area.width / 2, area.y + 7, TN_ALIGN_CENTRE, text);
 }
 
 void tn_draw_hall_mark(tn_paint *paint, double x, double y, double radius)
@@ -352,21 +378,37 @@ static void draw_public_end(const picture *p, size_t i, const rectangle *room, d
         tn_draw_public_mark(p->paint, room->x + room->width / 2, bottom + gap, 0, -1);
 }
 
-/* What the tray is for stands in its room, or where its room would be. */
-static void draw_text(const picture *p, tn_tray tray, double x, double width)
+/* What the tray is for stands in its room, or where its room would be; NULL: nothing says it. */
+static const char *find_text(const picture *p, tn_tray tray, double x, double width, tn_draw_area *area, bool *hatched)
 {
     const tn_draw_roles *roles = p->roles;
     rectangle room = {x, p->y, width, (double)bare_depth(roles) * p->scale, 0};
     if (roles->text == TN_NO_FIELD)
-        return;
+        return NULL;
     bool bare = !room_of(p, tray, x, &room);
-    bool hatched = !bare && roles->schema->values[room.value].role == TN_FILL_SOLID;
+    *hatched = !bare && roles->schema->values[room.value].role == TN_FILL_SOLID;
+    *area = (tn_draw_area){room.x, room.y, room.width, room.height};
     if (is_set(roles, tray, roles->great_hall)) { /* below its mark */
-        room.y += room.height * 0.7;
-        room.height *= 0.3;
+        area->y += area->height * 0.7;
+        area->height *= 0.3;
     }
-    tn_draw_inside(p->paint, tn_text(roles->schema->module, value_of(roles, tray, roles->text)->spelling),
-                   TN_INSIDE_SIZE, hatched, room.x, room.y, room.width, room.height);
+    return tn_text(roles->schema->module, value_of(roles, tray, roles->text)->spelling);
+}
+
+/* The cross of a room of several storeys goes round its name. */
+static void draw_levels(const picture *p, tn_tray tray, rectangle room, const char *text, tn_draw_area area)
+{
+    uint32_t levels = p->roles->level == TN_NO_FIELD ? 1 : tn_tray_value(p->roles->schema, tray, p->roles->level) + 1;
+    tn_draw_area spared = {0};
+    if (levels < 2)
+        return;
+    if (text) {
+        spared = area;
+        tn_draw_inside_room(p->paint, text, TN_INSIDE_SIZE, &spared.width, &spared.height);
+        spared.x += (area.width - spared.width) / 2;
+        spared.y += (area.height - spared.height) / 2;
+    }
+    tn_draw_level_mark(p->paint, levels, (tn_draw_area){room.x, room.y, room.width, room.height}, spared);
 }
 
 static void draw_marks(const picture *p, double bottom)
@@ -375,19 +417,48 @@ static void draw_marks(const picture *p, double bottom)
     double x = p->x;
     for (size_t i = 0; i < p->plan->length; x += tray_width(p, i++)) {
         tn_tray tray = p->plan->trays[i];
+        tn_draw_area area;
         rectangle room;
-        draw_text(p, tray, x, tray_width(p, i));
+        bool hatched;
+        const char *text = find_text(p, tray, x, tray_width(p, i), &area, &hatched);
+        if (text)
+            tn_draw_inside(p->paint, text, TN_INSIDE_SIZE, hatched, area.x, area.y, area.width, area.height);
         if (!room_of(p, tray, x, &room))
             continue;
-        uint32_t levels = roles->level == TN_NO_FIELD ? 1 : tn_tray_value(roles->schema, tray, roles->level) + 1;
-        if (levels > 1)
-            tn_draw_level_mark(p->paint, levels, room.x, room.y, room.width, room.height);
+        draw_levels(p, tray, room, text, area);
         if (is_set(roles, tray, roles->great_hall))
             tn_draw_hall_mark(p->paint, room.x + room.width / 2, room.y + room.height / 2,
                               fmin(9, fmin(room.width, room.height) * 0.27));
         if (is_set(roles, tray, roles->public_end))
             draw_public_end(p, i, &room, bottom);
     }
+}
+
+/* ---- what lies on which side */
+
+bool tn_draw_two_sided(const tn_draw_roles *roles)
+{
+    return roles->to_scale && roles->spine > 0 && roles->spine + 1 < roles->band_count;
+}
+
+static void draw_side(tn_paint *paint, const tn_draw_roles *roles, uint32_t band, double x, double middle, double room)
+{
+    const tn_schema *schema = roles->schema;
+    tn_paint_save(paint);
+    tn_paint_translate(paint, x + TN_SIDES_ROOM / 2, middle);
+    tn_paint_rotate(paint, -3.14159265358979323846 / 2);
+    tn_paint_face(paint, DIMENSION_SIZE, false);
+    tn_type_fit(paint, 0, DIMENSION_SIZE * 0.36, TN_ALIGN_CENTRE, room,
+                tn_text(schema->module, schema->fields[roles->bands[band]].name));
+    tn_paint_restore(paint);
+}
+
+void tn_draw_sides(tn_paint *paint, const tn_draw_roles *roles, double x, double spine, double above, double below)
+{
+    const double least = 26; /* points: most names are read in it, where the depth is less */
+    double upper = fmax(above, least), lower = fmax(below / 2, least);
+    draw_side(paint, roles, 0, x, spine - above + upper / 2, upper);
+    draw_side(paint, roles, roles->band_count - 1, x, spine + below - lower / 2, lower);
 }
 
 /* An architect's tick: a short stroke across the dimension line. */

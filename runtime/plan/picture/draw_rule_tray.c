@@ -134,10 +134,6 @@ void tn_draw_optional(tn_paint *paint, double x, double y, tn_size s)
 #define SIGN_SIDE 12.0 /* of the signs within the spine, to be clicked on */
 #define DEPTH_SIDE 8.0
 
-typedef struct tn_draw_area {
-    double x, y, width, height;
-} tn_draw_area;
-
 static bool allows(const tn_draw_roles *roles, uint32_t spec, uint32_t field, uint32_t value)
 {
     uint32_t bit = roles->schema->value_start[field] + value;
@@ -202,6 +198,32 @@ static void field_text(const tn_draw_roles *roles, uint32_t spec, uint32_t field
     list_values(roles, spec, field, values);
     snprintf(text, ITEM_MAX, "%.60s ", name);
     say(text, values);
+}
+
+/* ---- the sheet's colours: what the tray is for */
+
+enum { TONES_MAX = 3 }; /* of a field, side by side; more say nothing at a glance */
+
+/* Does the specifier say in few values what the field is? */
+static bool is_told(const tn_draw_roles *roles, uint32_t spec, uint32_t field)
+{
+    return field != TN_NO_FIELD && !is_free(roles, spec, field) && allowed(roles, spec, field) >= 1 &&
+           allowed(roles, spec, field) <= TONES_MAX;
+}
+
+/* As sheets colour and hatch a tray of that value; of a few values, each in its part. */
+static void draw_tones(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, tn_draw_area at)
+{
+    uint32_t count = 0, field = roles->tone;
+    for (uint32_t v = 0; is_told(roles, spec, field) && v < roles->schema->fields[field].value_count; v++) {
+        double wide = at.width / allowed(roles, spec, field);
+        if (allows(roles, spec, field, v))
+            tn_draw_tone(paint, roles, v, at.x + wide * count++, at.y, wide, at.height);
+    }
+    field = roles->hatch;
+    for (uint32_t v = 0; is_told(roles, spec, field) && v < roles->schema->fields[field].value_count; v++)
+        if (allows(roles, spec, field, v) && allowed(roles, spec, field) == 1)
+            tn_draw_hatch(paint, roles, v, at.x, at.y, at.width, at.height);
 }
 
 /* ---- what is clicked on */
@@ -303,14 +325,15 @@ static bool any_fill(const tn_draw_roles *roles, uint32_t spec, uint32_t field)
     return true;
 }
 
-/* Dotted, with nothing in it: any fill will do. */
-static void draw_any(tn_paint *paint, double x, double y, double width, double height)
+/* Dotted, with nothing in it but what the tray is for: any fill will do. */
+static void draw_any(tn_paint *paint, bool toned, double x, double y, double width, double height)
 {
     static const double dots[] = {1, 2};
     tn_paint_save(paint);
     tn_paint_rectangle(paint, x, y, width, height);
     tn_paint_colour(paint, 0.94, 0.94, 0.94);
-    tn_paint_fill_keep(paint);
+    if (!toned)
+        tn_paint_fill_keep(paint);
     tn_paint_colour(paint, 0, 0, 0);
     tn_paint_dash(paint, dots, 2, 0);
     tn_paint_line_width(paint, 0.5);
@@ -333,9 +356,11 @@ static void draw_absent(tn_paint *paint, double x, double y, double width, doubl
 static void draw_fills(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, uint32_t field, tn_draw_area at)
 {
     uint32_t fills[FILLS_MAX], count = list_fills(roles, spec, field, fills);
-    bool any = any_fill(roles, spec, field);
+    bool any = any_fill(roles, spec, field), room = field == roles->bands[roles->spine];
+    if (room)
+        draw_tones(paint, roles, spec, at);
     if (any)
-        draw_any(paint, at.x, at.y, at.width, at.height);
+        draw_any(paint, room && is_told(roles, spec, roles->tone), at.x, at.y, at.width, at.height);
     double width = at.width / (count ? count : 1);
     for (uint32_t i = 0; i < count && !any; i++) {
         tn_fill_role role = (tn_fill_role)value_at(roles, field, fills[i])->role;
@@ -409,7 +434,7 @@ static void draw_levels(tn_paint *paint, const tn_draw_roles *roles, uint32_t sp
     for (uint32_t v = 0; v < count; v++)
         most = allows(roles, spec, roles->level, v) ? v + 1 : most;
     if (allowed(roles, spec, roles->level) == 1 && most > 1) {
-        tn_draw_level_mark(paint, most, left, y, TRAY_WIDTH, height);
+        tn_draw_level_mark(paint, most, (tn_draw_area){left, y, TRAY_WIDTH, height}, (tn_draw_area){0});
         return;
     }
     for (uint32_t i = 0; i < most; i++)
@@ -444,16 +469,35 @@ static bool is_written(const tn_draw_roles *roles, uint32_t spec, uint32_t field
     return !is_free(roles, spec, field) && (!roles->to_scale || tn_draw_written(roles, field));
 }
 
+/* What the tray is for is written first, in bold, as sheets write it; then the other fields in their order. Field
+ * number `i` of these. */
+static uint32_t written_field(const tn_draw_roles *roles, uint32_t i)
+{
+    if (roles->text == TN_NO_FIELD || i > roles->text)
+        return i;
+    return i == 0 ? roles->text : i - 1;
+}
+
+/* Its words: "kitchen or bath", "storeys two or three"; and the lettering for them. */
+static void write_field(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, uint32_t field, char text[ITEM_MAX])
+{
+    bool head = field == roles->text;
+    tn_paint_face(paint, roles->to_scale ? TEXT_SIZE : LABEL_SIZE, head);
+    if (head)
+        list_values(roles, spec, field, text);
+    else
+        field_text(roles, spec, field, text);
+}
+
 static double written_width(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, uint32_t *lines)
 {
     double width = 0;
     *lines = 0;
-    tn_paint_face(paint, roles->to_scale ? TEXT_SIZE : LABEL_SIZE, false);
     for (uint32_t f = 0; f < roles->schema->field_count; f++) {
         char text[ITEM_MAX];
         if (!is_written(roles, spec, f))
             continue;
-        field_text(roles, spec, f, text);
+        write_field(paint, roles, spec, f, text);
         width = fmax(width, tn_type_width(paint, text));
         ++*lines;
     }
@@ -463,12 +507,12 @@ static double written_width(tn_paint *paint, const tn_draw_roles *roles, uint32_
 static void write_fields(tn_paint *paint, const tn_draw_roles *roles, uint32_t spec, double x, double y, double leading,
                          bool signs)
 {
-    tn_paint_face(paint, roles->to_scale ? TEXT_SIZE : LABEL_SIZE, false);
-    for (uint32_t f = 0; f < roles->schema->field_count; f++) {
+    for (uint32_t i = 0; i < roles->schema->field_count; i++) {
         char text[ITEM_MAX];
+        uint32_t f = written_field(roles, i);
         if (!is_written(roles, spec, f))
             continue;
-        field_text(roles, spec, f, text);
+        write_field(paint, roles, spec, f, text);
         double width = tn_type_width(paint, text);
         begin_sign(paint, signs, TN_PAINT_ITEM, f, (tn_draw_area){x - width / 2, y - leading + 2, width, leading});
         tn_type_line(paint, x, y, TN_ALIGN_CENTRE, text);
@@ -534,9 +578,11 @@ static void draw_written(tn_paint *paint, const tn_draw_roles *roles, uint32_t s
     double width, height;
     uint32_t lines;
     tn_draw_spec_measure(paint, roles, spec, &width, &height);
+    draw_tones(paint, roles, spec, (tn_draw_area){x, y, width, height});
     draw_frame(paint, x, y, width, height);
     written_width(paint, roles, spec, &lines);
     double baseline = y + LABEL_PADDING + LABEL_LEADING - 3;
+    tn_paint_face(paint, LABEL_SIZE, false);
     if (lines == 0)
         tn_type_line(paint, x + width / 2, baseline, TN_ALIGN_CENTRE, "any");
     write_fields(paint, roles, spec, x + width / 2, baseline, LABEL_LEADING, signs);

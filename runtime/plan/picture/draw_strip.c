@@ -194,7 +194,8 @@ static void level_entries(strip *s)
         tn_paint_rectangle(s->paint, x, y, SWATCH_WIDTH, SWATCH_HEIGHT);
         tn_paint_line_width(s->paint, TN_LINE_HAIR);
         tn_paint_stroke(s->paint);
-        tn_draw_level_mark(s->paint, v - schema->value_start[field] + 1, x, y, SWATCH_WIDTH, SWATCH_HEIGHT);
+        tn_draw_level_mark(s->paint, v - schema->value_start[field] + 1,
+                           (tn_draw_area){x, y, SWATCH_WIDTH, SWATCH_HEIGHT}, (tn_draw_area){0});
         tn_string doc = schema->values[v].doc ? schema->values[v].doc : schema->fields[field].doc;
         label(s, x, y, width, text_at(s, schema->values[v].name), text_at(s, doc ? doc : schema->fields[field].name));
     }

@@ -259,29 +259,48 @@ void tn_draw_hatch(tn_paint *paint, const tn_draw_roles *roles, uint32_t value, 
     tn_paint_colour(paint, 0, 0, 0);
 }
 
+/* How a text is set in a rectangle: smaller rather than cut off, upright where that is the only way that it fits. */
+typedef struct inside {
+    double size, across;
+    bool upright;
+} inside;
+
+static const double INSIDE_APART = 2;
+
+static inside set_inside(tn_paint *paint, const char *text, double size, double width, double height)
+{
+    tn_paint_face(paint, size, true);
+    double needs = tn_type_width(paint, text) + INSIDE_APART;
+    if (needs > width && needs > height) {
+        size = fmax(TN_INSIDE_LEAST, 0.99 * size * (fmax(width, height) - INSIDE_APART) / (needs - INSIDE_APART));
+        tn_paint_face(paint, size, true);
+        needs = tn_type_width(paint, text) + INSIDE_APART;
+    }
+    bool upright = needs > width && needs <= height && width >= size;
+    return (inside){size, fmin(needs + INSIDE_APART, upright ? height : width), upright};
+}
+
+void tn_draw_inside_room(tn_paint *paint, const char *text, double size, double *width, double *height)
+{
+    inside set = set_inside(paint, text, size, *width, *height);
+    *width = set.upright ? set.size * 1.2 : set.across;
+    *height = set.upright ? set.across : set.size * 1.2;
+}
+
 void tn_draw_inside(tn_paint *paint, const char *text, double size, bool hatched, double x, double y, double width,
                     double height)
 {
-    const double apart = 2;
-    tn_paint_face(paint, size, true);
-    double needs = tn_type_width(paint, text) + apart;
-    if (needs > width && needs > height) { /* smaller rather than cut off */
-        size = fmax(TN_INSIDE_LEAST, 0.99 * size * (fmax(width, height) - apart) / (needs - apart));
-        tn_paint_face(paint, size, true);
-        needs = tn_type_width(paint, text) + apart;
-    }
-    bool upright = needs > width && needs <= height && width >= size;
-    double across = fmin(needs + apart, upright ? height : width);
+    inside set = set_inside(paint, text, size, width, height);
     tn_paint_save(paint);
     tn_paint_translate(paint, x + width / 2, y + height / 2);
-    if (upright)
+    if (set.upright)
         tn_paint_rotate(paint, -3.14159265358979323846 / 2);
     if (hatched) {
-        tn_paint_rectangle(paint, -across / 2, -size * 0.6, across, size * 1.2);
+        tn_paint_rectangle(paint, -set.across / 2, -set.size * 0.6, set.across, set.size * 1.2);
         tn_paint_translucent(paint, 1, 1, 1, 0.8);
         tn_paint_fill(paint);
         tn_paint_colour(paint, 0, 0, 0);
     }
-    tn_type_fit(paint, 0, size * 0.36, TN_ALIGN_CENTRE, upright ? height : width - apart, text);
+    tn_type_fit(paint, 0, set.size * 0.36, TN_ALIGN_CENTRE, set.upright ? height : width - INSIDE_APART, text);
     tn_paint_restore(paint);
 }

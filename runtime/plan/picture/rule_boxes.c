@@ -185,54 +185,240 @@ static tn_rule_box_kind kind_of(tn_part_kind kind)
     }
 }
 
+/* A rule being read, and what its parts stand in. */
+typedef struct adding {
+    const tn_module *module;
+    tn_rule_boxes *boxes;
+    const struct bound *bound; /* the innermost quantifier */
+    unsigned calls, depth;     /* of rules with parameters, opened around these parts; and of parts in parts */
+    tn_error *error;
+} adding;
+
 /* A neighbour has a frame of its own only where it is the whole rule ("the box and symbol are omitted", section 3.2).
  */
-static tn_rule_box box_of(const tn_parts *parts, uint32_t part)
+static tn_rule_box box_of(const adding *a, const tn_parts *parts, uint32_t part)
 {
     const tn_part *it = &parts->parts[part];
     bool named = is_named(parts, part), separator = !named && is_separator(parts, part);
     bool counts = it->kind == TN_PART_QUANTITY || it->kind == TN_PART_SUM || it->kind == TN_PART_OCCURRENCES;
-    return (tn_rule_box){.kind = named ? TN_BOX_TAG : kind_of(it->kind),
-                         .number = part,
-                         .spec = it->spec,
-                         .framed = it->kind != TN_PART_TRAY && !named && !separator &&
-                                   (it->kind != TN_PART_NEIGHBOUR || it->parent == TN_NO_PART),
-                         .centred = counts,
-                         .separator = separator,
-                         .optional = it->optional,
-                         .alone = it->child_count == 1,
-                         .beginning = it->beginning,
-                         .end = it->end,
-                         .beginning_number = TN_NO_BOX_NUMBER,
-                         .end_number = TN_NO_BOX_NUMBER};
+    return (tn_rule_box){
+        .kind = named ? TN_BOX_TAG : kind_of(it->kind),
+        .number = a->calls == 0 ? part : TN_NO_BOX_NUMBER, /* parts of another function have none in this rule */
+        .spec = it->spec,
+        .framed = it->kind != TN_PART_TRAY && !named && !separator &&
+                  (it->kind != TN_PART_NEIGHBOUR || it->parent == TN_NO_PART),
+        .centred = counts,
+        .separator = separator,
+        .optional = it->optional,
+        .alone = it->child_count == 1,
+        .beginning = it->beginning,
+        .end = it->end,
+        .beginning_number = TN_NO_BOX_NUMBER,
+        .end_number = TN_NO_BOX_NUMBER};
 }
 
-static tn_status add_part(const tn_parts *parts, uint32_t part, uint32_t parent, tn_rule_boxes *boxes, tn_error *error)
+/* ---- quantifiers: `some v in use (...)`, whose code has a part for each value */
+
+/* The words that a quantifier binds, and those of the quantifiers around it. */
+typedef struct bound {
+    char names[TN_RULE_WORDS_MAX]; /* "v, w" */
+    const struct bound *outer;
+} bound;
+
+static bool is_name(char c)
 {
-    char words[TN_RULE_WORDS_MAX > TN_PART_TEXT_MAX ? TN_RULE_WORDS_MAX : TN_PART_TEXT_MAX];
-    tn_rule_box box = box_of(parts, part);
+    return c == '-' || c == '_' || (unsigned char)c >= 0x80 || (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') ||
+           (c >= 'a' && c <= 'z');
+}
+
+/* Stands the word of that size in the text, as a word of its own? */
+static bool has_word(const char *text, const char *word, size_t size)
+{
+    for (const char *at = text; *at; at++) {
+        bool begins = at == text || !is_name(at[-1]);
+        if (begins && strncmp(at, word, size) == 0 && !is_name(at[size]))
+            return true;
+    }
+    return false;
+}
+
+/* Names the text a word that a quantifier binds? Then the part is not the same for all values. */
+static bool is_bound(const bound *by, const char *text)
+{
+    for (; by; by = by->outer)
+        for (const char *name = by->names; *name;) {
+            size_t size = strcspn(name, ", ");
+            if (size > 0 && has_word(text, name, size))
+                return true;
+            name += size + strspn(name + size, ", ");
+        }
+    return false;
+}
+
+/* The part of the values of a quantifier that has most to show (values that are decided before there are plans leave
+ * less); TN_NO_PART: the part is no quantifier. All have the place of its body. */
+static uint32_t body_of(const tn_parts *parts, uint32_t part, const char *text)
+{
+    const tn_part *it = &parts->parts[part];
+    bool some = it->kind == TN_PART_OR && strncmp(text, "some ", 5) == 0,
+         every = it->kind == TN_PART_AND && strncmp(text, "every ", 6) == 0;
+    const tn_source_map_record *first =
+        some || every ? tn_module_place(parts->module, parts->parts[it->first].root) : NULL;
+    uint32_t body = it->first;
+    for (uint32_t child = it->first; first && child != TN_NO_PART; child = parts->parts[child].next) {
+        const tn_source_map_record *place = tn_module_place(parts->module, parts->parts[child].root);
+        if (!place || place->begin != first->begin || place->end != first->end || place->file != first->file)
+            return TN_NO_PART;
+        if (tn_part_size(parts, child) > tn_part_size(parts, body))
+            body = child;
+    }
+    return first ? body : TN_NO_PART;
+}
+
+/* What a condition of bound words leaves of the text before or behind the body: "v < w and" without its `and`. */
+static void trim_condition(const char *from, size_t size, char words[TN_RULE_WORDS_MAX])
+{
+    while (size > 0 && strchr(" (),", *from)) {
+        from++;
+        size--;
+    }
+    if (size >= 4 && strncmp(from, "and ", 4) == 0) {
+        from += 4;
+        size -= 4;
+    }
+    while (size > 0 && strchr(" (", from[size - 1]))
+        size--;
+    if (size >= 4 && strncmp(from + size - 4, " and", 4) == 0)
+        size -= 4;
+    size_t used = strlen(words);
+    if (size > 0)
+        snprintf(words + used, TN_RULE_WORDS_MAX - used, ": %.*s", (int)size, from);
+}
+
+/* "some v, w in width: v < w", and the names that it binds. */
+static void quantifier_words(const tn_parts *parts, uint32_t part, uint32_t body, const char *text,
+                             char words[TN_RULE_WORDS_MAX], char names[TN_RULE_WORDS_MAX])
+{
+    const tn_source_map_record *all = tn_module_place(parts->module, parts->parts[part].root),
+                               *of = tn_module_place(parts->module, parts->parts[body].root);
+    char before[TN_PART_TEXT_MAX];
+    size_t head = strcspn(text, "("), begin = strcspn(text, " ") + 1;
+    const char *in = strstr(text + begin, " in ");
+    while (head > 0 && text[head - 1] == ' ')
+        head--;
+    snprintf(words, TN_RULE_WORDS_MAX, "%.*s", (int)head, text);
+    snprintf(names, TN_RULE_WORDS_MAX, "%.*s", (int)(in ? in - (text + begin) : 0), text + begin);
+    if (!all || !of || all->file != of->file || of->begin < all->begin)
+        return;
+    tn_source_text(parts->module, all->file, all->begin, of->begin, before, sizeof before);
+    if (strlen(before) > head && strncmp(before, text, head) == 0)
+        trim_condition(before + head, strlen(before) - head, words);
+}
+
+static tn_status add_part(const adding *a, const tn_parts *parts, uint32_t part, uint32_t parent);
+
+/* A frame with the quantifier's words, and in it what is so for a value, once. */
+static tn_status add_quantifier(const adding *a, const tn_parts *parts, uint32_t part, uint32_t body, const char *text,
+                                uint32_t parent)
+{
+    char words[TN_RULE_WORDS_MAX];
+    bound by = {.outer = a->bound};
+    quantifier_words(parts, part, body, text, words, by.names);
+    tn_rule_box box = box_of(a, parts, part);
     uint32_t added;
-    if (box.kind == TN_BOX_TAG)
-        tn_part_text(parts, part, words, TN_PART_TEXT_MAX);
-    else
-        words_of(parts, part, words);
-    tn_status status = tn_rule_box_add(boxes, parent, box, words, &added, error);
-    if (box.kind == TN_BOX_TAG)
-        return status;
+    box.kind = TN_BOX_ROW;
+    box.alone = true;
+    tn_status status = tn_rule_box_add(a->boxes, parent, box, words, &added, a->error);
+    adding inside = *a;
+    inside.bound = &by;
+    return status == TN_OK ? add_part(&inside, parts, body, added) : status;
+}
+
+/* ---- calls of rules with parameters, drawn as what they mean */
+
+enum { CALLS_MAX = 6, DEPTH_MAX = 100, BOXES_MAX = 2000 }; /* calls in calls and parts in parts, within so many boxes */
+
+static bool is_opened(const adding *a, const tn_part *part, const char *text)
+{
+    return part->kind == TN_PART_RULE && part->rule == UINT32_MAX && !part->again && a->calls < CALLS_MAX &&
+           a->depth < DEPTH_MAX && a->boxes->count < BOXES_MAX && !is_bound(a->bound, text);
+}
+
+static tn_status add_call(const adding *a, const tn_parts *parts, uint32_t part, const char *text, uint32_t parent)
+{
+    tn_parts called;
+    tn_rule_box box = box_of(a, parts, part);
+    uint32_t added;
+    tn_status status = tn_parts_read(a->module, parts->parts[part].function, &called, a->error);
+    if (status == TN_OK) {
+        box.kind = TN_BOX_ROW;
+        box.framed = box.alone = true;
+        status = tn_rule_box_add(a->boxes, parent, box, text, &added, a->error);
+    }
+    if (status == TN_OK) {
+        adding inside = *a;
+        inside.calls++;
+        inside.bound = NULL; /* its words are the function's own */
+        status = add_part(&inside, &called, 0, added);
+    }
+    tn_parts_clear(&called);
+    return status;
+}
+
+/* ---- parts */
+
+/* What `tray(...)` says of a tray that is not the same for all values of a quantifier. */
+static void tray_words(char *text)
+{
+    size_t size = strlen(text);
+    if (strncmp(text, "tray(", 5) != 0 || text[size - 1] != ')')
+        return;
+    memmove(text, text + 5, size - 6);
+    text[size - 6] = '\0';
+}
+
+static tn_status add_children(const adding *a, const tn_parts *parts, uint32_t part, uint32_t added)
+{
+    tn_status status = TN_OK;
     for (uint32_t child = parts->parts[part].first; status == TN_OK && child != TN_NO_PART;
          child = parts->parts[child].next)
         if (!tn_part_unwritten(parts, child))
-            status = add_part(parts, child, added, boxes, error);
+            status = add_part(a, parts, child, added);
     return status;
+}
+
+static tn_status add_part(const adding *outer, const tn_parts *parts, uint32_t part, uint32_t parent)
+{
+    adding inside = *outer, *a = &inside;
+    char text[TN_PART_TEXT_MAX], words[TN_RULE_WORDS_MAX];
+    tn_rule_box box = box_of(a, parts, part);
+    uint32_t added, body;
+    a->depth++;
+    tn_part_text(parts, part, text, sizeof text);
+    if (is_opened(a, &parts->parts[part], text))
+        return add_call(a, parts, part, text, parent);
+    body = box.kind == TN_BOX_TAG ? TN_NO_PART : body_of(parts, part, text);
+    if (body != TN_NO_PART)
+        return add_quantifier(a, parts, part, body, text, parent);
+    if (box.kind == TN_BOX_TRAY && is_bound(a->bound, text)) {
+        box.kind = TN_BOX_LABEL;
+        tray_words(text);
+    }
+    if (box.kind == TN_BOX_TAG || box.kind == TN_BOX_LABEL)
+        return tn_rule_box_add(a->boxes, parent, box, text, &added, a->error);
+    words_of(parts, part, words);
+    tn_status status = tn_rule_box_add(a->boxes, parent, box, words, &added, a->error);
+    return status == TN_OK ? add_children(a, parts, part, added) : status;
 }
 
 tn_status tn_rule_boxes_read(const tn_module *module, uint32_t function, tn_rule_boxes *boxes, tn_error *error)
 {
     tn_parts parts;
     *boxes = (tn_rule_boxes){0};
+    const adding a = {.module = module, .boxes = boxes, .error = error};
     tn_status status = tn_parts_read(module, function, &parts, error);
     if (status == TN_OK)
-        status = add_part(&parts, 0, TN_NO_BOX, boxes, error);
+        status = add_part(&a, &parts, 0, TN_NO_BOX);
     tn_parts_clear(&parts);
     return status;
 }
