@@ -199,7 +199,7 @@ def compare(made, house):
     wedges = house.get("wedges", [])
     flights = {s["of"] for s in house["solids"] if s["kind"] == "flight"} | {w["of"] for w in wedges}
     openings = [f for i, f in enumerate(house["faces"]) if f["kind"] not in plain and i not in flights]
-    gables = {r["of"] for r in house["roofs"] if r["kind"] == "gable"}
+    gables = {(r["of"], r.get("face")) for r in house["roofs"] if r["kind"] == "gable"}
     check("as many walls", len(of("IFCWALL")) == len(walls) + len(gables))
     check("as many posts", len(of("IFCCOLUMN")) == kinds["post"])
     slabs = {(r["of"], house_prisms.plane_of(house_prisms.corners_of(r), 3)) for r in house["roofs"] if r["kind"] == "roof"}
@@ -279,29 +279,36 @@ def axis_of(solid):
 
 
 def check_layers(made, house):
-    """Those of each wall and slab are those of the solids in the JSON; posts have theirs as a set alone."""
-    wanted, posts, walls = Counter(), Counter(), set()
+    """Those of each wall and slab are those of the solids in the JSON; posts, roofs and walls below these have theirs as a set alone."""
+    wanted, alone, walls = Counter(), Counter(), set()
     for solid in (s for s in house["solids"] if "layers" in s):
         names, axis = tuple(layer["name"] for layer in solid["layers"]), axis_of(solid)
         wall = solid["kind"] in ("outside", "party", "partition")
         if solid["kind"] == "post":
-            posts[names] += 1
+            alone["IFCCOLUMN", names] += 1
         elif not wall or solid["of"] not in walls:
             sides = (tuple(F(n, 10**6) for n in layer["box"][2 * axis:2 * axis + 2]) for layer in solid["layers"])
             wanted[tuple((name, axis, side) for name, side in zip(names, sides))] += 1
         walls |= {solid["of"]} if wall else set()
-    found, columns = Counter(), Counter()
+    found, sets, below = Counter(), Counter(), Counter()
+    slabs = {(r["of"], house_prisms.plane_of(house_prisms.corners_of(r), 3), tuple(l["name"] for l in r["layers"])) for r in house["roofs"] if r["kind"] == "roof" and "layers" in r}
+    alone += Counter(("IFCSLAB", names) for _, _, names in slabs)
+    gables = {(r["of"], r["face"]) for r in house["roofs"] if r["kind"] == "gable" and "layers" in r}
     for name, args in made.values():
         usage = references(args[5])[0] if name == "IFCRELASSOCIATESMATERIAL" else None
         of = made[usage][0] if usage else None
         for part in references(args[4]) if of in ("IFCMATERIALLAYERSET", "IFCMATERIALLAYERSETUSAGE") else []:
-            check(f"{made[part][0]} has {of}", (of == "IFCMATERIALLAYERSET") == (made[part][0] == "IFCCOLUMN"))
-            if of == "IFCMATERIALLAYERSET":
-                columns[tuple(spelt(made[n][1][3]) for n in references(made[usage][1][0]))] += 1
+            below_it = made[part][0] == "IFCWALL" and spelt(made[part][1][2]) == "gable"
+            lone = made[part][0] == "IFCCOLUMN" or below_it or spelt(made[part][1][2]) == "roof"
+            check(f"{made[part][0]} has {of}", (of == "IFCMATERIALLAYERSET") == lone)
+            if lone:
+                names = tuple(spelt(made[n][1][3]) for n in references(made[usage][1][0]))
+                (below if below_it else sets)[made[part][0], names] += 1
             else:
                 found[tuple(layers_of(made, part, usage))] += 1
     check("layers of walls and slabs", found == wanted)
-    check("layers of posts", columns == posts)
+    check("layers of posts and roofs", sets == alone)
+    check("layers of walls below roofs", below.total() == len(gables) and {l["name"] for r in house["roofs"] if "face" in r for l in r["layers"]} <= {n for _, names in below for n in names})
 
 
 # ---- where doors hang
@@ -480,7 +487,7 @@ def slope(rise, way):
 def below_roofs(house):
     """The area of the walls below roofs: an outside wall is as thick as a wall."""
     thick = {min(s["box"][1] - s["box"][0], s["box"][3] - s["box"][2]) for s in house["solids"] if s["kind"] == "outside"}
-    volume = sum(house_prisms.volume_of(r) for r in house["roofs"] if r["kind"] == "gable")
+    volume = sum(house_prisms.volume_of(r) for r in house["roofs"] if r["kind"] == "gable" and "layers" not in r)
     return volume / max(thick) if volume else 0
 
 
@@ -509,19 +516,23 @@ def check_parts(path, house):
             number[part] += s["kind"] != "flight" and not (s["kind"] == "guard" and s["of"] in guards)
             guards |= {s["of"]} if s["kind"] == "guard" else set()
         volume[part] += 0 if "layers" in s else x * y * z
+    roofed = set()
     for r in house["roofs"]:
-        if r["kind"] == "gable":
-            volume["wall"] += house_prisms.volume_of(r)
-            continue
-        p, q, _ = house_prisms.plane_of(house_prisms.corners_of(r), 3)
-        area["roof"] += house_prisms.plan_of(r) * slope(abs(p + q), 1)
-        volume["roof"] += house_prisms.volume_of(r)
+        for name, piece in [(l["name"], l) for l in r.get("layers", [])] or [("wall" if r["kind"] == "gable" else "roof", r)]:
+            held = house_prisms.volume_of(piece)
+            volume[name] += held
+            if r["kind"] == "roof":
+                p, q, _ = house_prisms.plane_of(house_prisms.corners_of(r), 3)
+                area[name] += house_prisms.plan_of(r) * slope(abs(p + q), 1)
+                number[name] += r["of"] not in roofed
+            elif "layers" in r:
+                area[name] += held / piece["thick"]
+        roofed |= {r["of"]} if r["kind"] == "roof" else set()
     steps = {(w["of"], tuple(map(tuple, (c[:2] for c in w["corners"])))): w for w in house.get("wedges", [])}  # each has two pieces
     for w in steps.values():
         area[house["faces"][w["of"]]["kind"]] += house_prisms.plan_of(w)
     for w in house.get("wedges", []):
         volume[house["faces"][w["of"]]["kind"]] += house_prisms.volume_of(w)
-    number["roof"] = len({r["of"] for r in house["roofs"] if r["kind"] == "roof"})
     for f in house["faces"]:
         number[f["kind"]] += f["kind"] not in ("wall", "party", "open", "floor", "stair") and has_leaf(f["kind"])
     unit = {"each": 1, "sf": 304800000**2, "m2": 10**18, "cf": 304800000**3, "m3": 10**27}
@@ -546,7 +557,7 @@ def check_parts(path, house):
             cents = math.floor(F(row["price"]) * size / unit[row["per"]] * 100 + F(1, 2))
             check(f"{part}: {row['cost']}", F(row["cost"]) * 100 == cents)
             total += F(row["cost"])
-    check("every part is in the table", {p for p in number if number[p]} == {r["part"] for r in rows} - {"total"})
+    check("every part is in the table", {p for p in number if number[p]} | {p for p in volume if volume[p]} == {r["part"] for r in rows} - {"total"})
 
 
 parser = argparse.ArgumentParser()

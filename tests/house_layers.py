@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Walls, partitions and decks in layers, against an independent slow sum: house_layers.py TARTAN FIRST COUNT
+"""Walls, partitions, decks and roofs in layers, against an independent slow sum: house_layers.py TARTAN FIRST COUNT
 
 Makes so many forms at random, with layers of some walls and decks and prices for some of them, and houses of each. Of every solid that has layers
 it is worked out here, from the cells and faces alone, which layers it is cut into: from the outside or from the first cell of a face inwards, from
-the top of a deck down, a post as the thicker of the walls that end there. Their boxes have to be those of the JSON, and to fill the solid; the
+the top of a deck or a roof down, a post as the thicker of the walls that end there. Their boxes have to be those of the JSON, and to fill the solid; the
 numbers, areas, volumes and costs of the bill are sums over them. A form of one line of thickness each has the same solids. The houses that cost at
 most so much are as many, counted together, as are found one by one."""
 import collections
@@ -15,6 +15,9 @@ import subprocess
 import sys
 import tempfile
 from fractions import Fraction as F
+
+import house_prisms
+import house_roof_layers
 
 INCH = 25400000
 WALLS = ("outside", "party", "partition")
@@ -28,20 +31,35 @@ def quarters(n):
     return f'{whole} {part}"'.replace(' "', '"') if whole else f'{part}"'
 
 
+class Roof:
+    SHAPES = ("flat", "shed(back, 4:12)", "gable(9:12)", "gable(6:12, open)", "vault(2', across)", "cross-gable(8:12)", "gable(7:12, across, open)", "gable(9:12, eaves 1')", "hip(6:12)")
+
+    def __init__(self, text):
+        self.text, self.open, self.across = text, "open" in text, "across" in text
+
+
 class Form:
     def __init__(self, seed):
         r = self.chance = random.Random(seed)
-        self.thick = {"outside": 8 * r.randint(2, 4), "partition": 8 * r.randint(1, 2), "deck": r.randint(24, 48)}
+        self.thick = {"outside": 8 * r.randint(2, 4), "partition": 8 * r.randint(1, 2), "deck": r.randint(24, 48), "roof": r.randint(16, 40)}
         self.thick["party"] = self.thick["outside"]
-        self.layers = {of: self.cut(self.thick[of]) for of in ("outside", "party", "partition", "deck") if r.random() < 0.8}
+        self.layers = {of: self.cut(self.thick[of]) for of in ("outside", "party", "partition", "deck", "roof") if r.random() < 0.8}
         self.together = "outside" in self.layers and r.random() < 0.3  # of all walls in one line
         if self.together:
             self.layers["party"] = self.layers["outside"]
         names = sorted({name for layers in self.layers.values() for name, _ in layers})
         self.prices = {name: (r.randint(1, 900), r.choice(("sf", "cf", "m2", "m3", "each"))) for name in names if r.random() < 0.8}
-        for part in ("wall", "party", "partition", "post", "deck"):
+        self.roofs = {"body": Roof(r.choice(Roof.SHAPES)), "shed": Roof(r.choice(("flat", "shed(back, 4:12)", "shed(front, 2:12, open)"))), "bay": Roof("flat")}
+        for part in ("wall", "party", "partition", "post", "deck", "roof"):
             if r.random() < 0.6:
                 self.prices[part] = (r.randint(1, 900), r.choice(("sf", "cf")))
+
+    def roof_of(self, zone):
+        return self.roofs[zone]
+
+    def inches(self, of):
+        """In nanometres."""
+        return F(self.thick[of] * INCH, 4)
 
     def cut(self, thick):
         r = self.chance
@@ -64,7 +82,8 @@ class Form:
         lines = [f"schema hut {{ width role length = {r.randint(6, 8)}' | {r.randint(9, 12)}'",
                  f"  zone shed role band = none role absent | space({r.randint(5, 7)}')", f"  zone body role band = space({r.randint(8, 12)}', {r.randint(13, 15)}')",
                  "  zone bay role band = none role absent | space(5') }", "form huts of hut {", "  storey low 8'", "  storey high 8'", "  spine body",
-                 *walls, self.line("partition", "partition", layered), self.line("deck", "deck", layered), '  roof 6"',
+                 *walls, self.line("partition", "partition", layered), self.line("deck", "deck", layered), self.line("roof", "roof", layered),
+                 *(f"  section {zone} roof = {roof.text}" for zone, roof in self.roofs.items()),
                  "  section body storeys = 1 | 2", "  section shed storeys = 1 | 2", "  section bay storeys = 1",
                  "  function hall at cell(any)", "  opening door wide 3' high 6'8\" passage", "  opening sash wide 2' high 3' sill 2'",
                  f"  face cell(hall) along cell(hall) = {kinds[0]}", f"  face cell(hall) across cell(hall) = {kinds[1]}",
@@ -174,6 +193,7 @@ def bill_of(form, house):
             line[0] += new
             line[1] += area_of(house, form, solid, box)
             line[2] += volume(box)
+    house_roof_layers.add_to_bill(form, house, bill)
     return bill
 
 
@@ -255,7 +275,7 @@ class Checker:
                 self.check(f"{where}: layers fill solid {i}", sum(volume(b) for _, b in want) == volume(solid["box"]) and all(volume(b) > 0 for _, b in want))
 
     def check_bill(self, form, house, folder, where):
-        want, other = bill_of(form, house), {"roof", "door", "sash"}
+        want, other = bill_of(form, house), {"door", "sash"}
         parts = {p["part"]: p for p in house["parts"] if p["part"] not in other}
         self.check(f"{where}: the bill has {sorted(parts)}, not {sorted(want)}", set(parts) == set(want))
         rows = {row["part"]: row for row in csv.DictReader(open(folder + "/h.parts.csv"))}
@@ -270,7 +290,7 @@ class Checker:
 
     def check_count(self, form, path, folder):
         """Of the houses of one tray, those that cost no more than the one in the middle."""
-        if not form.prices or not 1 < self.count(path, "few") <= 40:
+        if not form.prices or form.roofs["body"].text.startswith("hip") or not 1 < self.count(path, "few") <= 40:
             return
         lines = self.run("enumerate", path, "--library", "few").splitlines()
         costs = []
@@ -308,10 +328,13 @@ class Checker:
             house, same = self.house(path, line, folder), None
             where = f"form {seed}, {line}"
             self.check_solids(form, house, where)
+            house_roof_layers.check_roofs(form, house, self.check, where)
             self.check_bill(form, house, folder, where)
             self.check_hanging(form, house, path, line, where)
             same = self.house(plain, line, folder)
             self.check(f"{where}: the solids are those without layers", [(s["kind"], s["of"], s["box"]) for s in house["solids"]] == [(s["kind"], s["of"], s["box"]) for s in same["solids"]])
+            held = lambda h: {kind: sum(house_prisms.volume_of(p) for p in h["roofs"] if p["kind"] == kind) for kind in ("roof", "gable")}
+            self.check(f"{where}: roofs hold as much as those without layers", held(house) == held(same))
         self.check_count(form, path, folder)
 
 

@@ -33,14 +33,15 @@ static bool is_leafless(const tn_survey *s, uint32_t part)
            s->form.module->OPENING_records[form->opening_first + part - first].flags & TN_LEAFLESS;
 }
 
-/* Is the part what all of its walls or decks are, in layers? */
+/* Is the part what all of its walls, decks or roofs are, in layers? */
 static bool is_layered(const tn_survey *s, uint32_t part)
 {
     static const tn_layered kinds[] = {[TN_OF_WALL] = TN_LAYERED_OUTSIDE,
                                        [TN_OF_PARTY] = TN_LAYERED_PARTY,
                                        [TN_OF_PARTITION] = TN_LAYERED_PARTITION,
-                                       [TN_OF_DECK] = TN_LAYERED_DECK};
-    bool layers = part == TN_OF_WALL || part == TN_OF_PARTY || part == TN_OF_PARTITION || part == TN_OF_DECK;
+                                       [TN_OF_DECK] = TN_LAYERED_DECK,
+                                       [TN_OF_ROOF] = TN_LAYERED_ROOF};
+    bool layers = part < TN_OF_COUNT && part != TN_OF_POST;
     return layers && tn_form_layers(&s->form, kinds[part]) < s->form.layers_end[kinds[part]];
 }
 

@@ -338,7 +338,7 @@ static bool put_head(const tn_house_reporting *r)
            tn_page_html(&r->page, ", partitions ") && house_put_length(r, form->partition) &&
            put_layers(r, TN_LAYERED_PARTITION) && tn_page_html(&r->page, ", decks ") &&
            house_put_length(r, form->deck) && put_layers(r, TN_LAYERED_DECK) && tn_page_html(&r->page, ", roofs ") &&
-           house_put_length(r, form->roof) &&
+           house_put_length(r, form->roof) && put_layers(r, TN_LAYERED_ROOF) &&
            tn_page_html(&r->page, ".</p>\n<nav><a href=\"#counts\">Counts</a> <a href=\"#clauses\">Clauses</a> "
                                   "<a href=\"#houses\">Houses</a> <a href=\"#storeys\">Storeys</a> "
                                   "<a href=\"#functions\">Functions</a> <a href=\"#openings\">Openings</a> "

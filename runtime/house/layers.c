@@ -1,5 +1,5 @@
-/* What walls, posts and decks consist of: layers, from the outside or from the first cell of a face inwards, from the
- * top of a deck down. A layer is the solid's box, cut across. */
+/* What walls, posts, decks and roofs consist of: layers, from the outside or from the first cell of a face inwards, from the
+ * top of a deck or a roof down. A layer is the solid's box, cut across; layers of prisms are made in roof.c. */
 #include "runtime/house/solids.h"
 
 tn_solid_kind tn_face_wall(const tn_house *house, const tn_face *face)
@@ -24,15 +24,27 @@ static bool begins_low(const tn_house *house, const tn_face *face)
     return low == (inner != TN_NO_CELL);
 }
 
+/* Of a wall in a face that consists of such layers. */
+static tn_layering along_face(const tn_house *house, const tn_face *face, tn_layered of)
+{
+    tn_layering layers = layers_of(house->form, of);
+    layers.axis = face->at.x0 == face->at.x1 ? 0 : 1;
+    layers.from_high = !begins_low(house, face);
+    return layers;
+}
+
 tn_layering tn_face_layering(const tn_house *house, const tn_face *face)
 {
     static const tn_layered kinds[] = {[TN_SOLID_OUTSIDE] = TN_LAYERED_OUTSIDE,
                                        [TN_SOLID_PARTY] = TN_LAYERED_PARTY,
                                        [TN_SOLID_PARTITION] = TN_LAYERED_PARTITION};
-    tn_layering layers = layers_of(house->form, kinds[tn_face_wall(house, face)]);
-    layers.axis = face->at.x0 == face->at.x1 ? 0 : 1;
-    layers.from_high = !begins_low(house, face);
-    return layers;
+    return along_face(house, face, kinds[tn_face_wall(house, face)]);
+}
+
+tn_layering tn_gable_layering(const tn_house *house, const tn_face *face)
+{
+    bool party = tn_face_wall(house, face) == TN_SOLID_PARTY;
+    return along_face(house, face, party ? TN_LAYERED_PARTY : TN_LAYERED_OUTSIDE);
 }
 
 tn_layering tn_solid_layering(const tn_house *house, tn_solid_kind kind, uint32_t of, uint32_t item)
@@ -47,9 +59,12 @@ tn_layering tn_solid_layering(const tn_house *house, tn_solid_kind kind, uint32_
         return tn_face_layering(house, &house->faces[of]);
     case TN_SOLID_POST:
         return item == TN_NO_FACE ? layers : tn_face_layering(house, &house->faces[item]);
+    case TN_SOLID_GABLE:
+        return item == TN_NO_FACE ? layers : tn_gable_layering(house, &house->faces[item]);
     case TN_SOLID_DECK:
     case TN_SOLID_ROOFDECK:
-        layers = layers_of(house->form, TN_LAYERED_DECK);
+    case TN_SOLID_ROOF:
+        layers = layers_of(house->form, kind == TN_SOLID_ROOF ? TN_LAYERED_ROOF : TN_LAYERED_DECK);
         layers.axis = 2;
         layers.from_high = true;
         return layers;
@@ -78,6 +93,13 @@ tn_box tn_layer_box(const tn_layering *layers, uint32_t layer, const tn_box *box
         *high = *low + thick;
     }
     return cut;
+}
+
+tn_rectangle tn_gable_layer_at(const tn_house *house, uint32_t face, const tn_layering *layers, uint32_t layer)
+{
+    tn_rectangle r = tn_rectangle_grown(&house->faces[face].at, house->form->record->wall / 2);
+    tn_box box = tn_layer_box(layers, layer, &(tn_box){r.x0, r.x1, r.y0, r.y1, 0, 0});
+    return (tn_rectangle){box.x0, box.x1, box.y0, box.y1};
 }
 
 uint32_t tn_post_wall(const tn_house *house, uint32_t storey, const tn_post *post)

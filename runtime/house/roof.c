@@ -24,7 +24,7 @@ static tn_status add_prism(tn_solids *solids, tn_prism prism, tn_error *error)
     return TN_OK;
 }
 
-/* The slab over a facet whose foot is at a level, or the wall from `base` up to that. */
+/* The slab over a facet whose foot is at a level, or the wall from a level up to that. */
 static tn_status put_facet(const tn_slopes *slopes, const tn_facet *facet, tn_prism prism, int64_t foot, int64_t thick,
                            const int64_t *base, tn_solids *solids, tn_error *error)
 {
@@ -49,7 +49,7 @@ static tn_status put_facet(const tn_slopes *slopes, const tn_facet *facet, tn_pr
     return status;
 }
 
-tn_status tn_roof_put(const tn_house *house, uint32_t index, tn_rectangle r, const int64_t *base, tn_solids *solids,
+tn_status tn_roof_put(const tn_house *house, uint32_t index, tn_rectangle r, const tn_gable *wall, tn_solids *solids,
                       tn_error *error)
 {
     tn_facet facets[TN_FACETS_MAX];
@@ -60,11 +60,66 @@ tn_status tn_roof_put(const tn_house *house, uint32_t index, tn_rectangle r, con
     for (size_t i = 0; status == TN_OK && i < count; i++) {
         tn_prism prism = {.kind = TN_SOLID_ROOF, .of = index, .over = r};
         status = put_facet(&slopes, &facets[i], prism, foot, thick, NULL, solids, error);
+        if (status != TN_OK || !wall)
+            continue;
         prism.kind = TN_SOLID_GABLE;
-        if (status == TN_OK && base)
-            status = put_facet(&slopes, &facets[i], prism, foot, thick, base, solids, error);
+        prism.item = wall->face;
+        status = put_facet(&slopes, &facets[i], prism, foot, thick, &wall->base, solids, error);
     }
     return status;
+}
+
+/* ---- layers */
+
+/* A layer of a slab is a slab. */
+static tn_status put_slab_layer(const tn_solids *solids, const tn_prism *slab, const tn_layering *layers,
+                                uint32_t layer, tn_solids *pieces, tn_error *error)
+{
+    int64_t thick = tn_form_layer(layers->form, layer)->thick, above = 0;
+    tn_prism piece = *slab;
+    tn_status status = TN_OK;
+    for (uint32_t i = layers->first; i < layer; i++)
+        above += tn_form_layer(layers->form, i)->thick;
+    piece.corner_first = pieces->corner_count;
+    for (size_t i = 0; status == TN_OK && i < slab->corner_count; i++) {
+        tn_prism_corner corner = solids->corners[slab->corner_first + i];
+        corner.high = tn_fraction_raised(corner.high, -above);
+        corner.low = tn_fraction_raised(corner.high, -thick);
+        status = add_corner(pieces, corner, error);
+    }
+    return status == TN_OK ? add_prism(pieces, piece, error) : status;
+}
+
+static tn_facet facet_of(const tn_solids *solids, const tn_prism *prism)
+{
+    tn_facet facet = {.plane = prism->plane, .count = prism->corner_count};
+    for (size_t i = 0; i < facet.count; i++) {
+        facet.at[i][0] = solids->corners[prism->corner_first + i].x;
+        facet.at[i][1] = solids->corners[prism->corner_first + i].y;
+    }
+    return facet;
+}
+
+/* A layer of a wall below a slab is what that is over the layer's part of the plan. */
+static tn_status put_gable_layer(const tn_house *house, const tn_solids *solids, const tn_prism *wall,
+                                 const tn_layering *layers, uint32_t layer, tn_solids *pieces, tn_error *error)
+{
+    tn_rectangle at = tn_gable_layer_at(house, wall->item, layers, layer);
+    tn_prism piece = *wall;
+    tn_facet facet = facet_of(solids, wall);
+    tn_slopes slopes = tn_roof_slopes_of(house, wall->of);
+    int64_t foot = house->form->level[house->cells[wall->of].storey + 1],
+            base = (int64_t)solids->corners[wall->corner_first].low.top; /* a whole number */
+    piece.over = tn_rectangles_common(&wall->over, &at);
+    tn_facet_keep(&facet, at);
+    return facet.count > 0 ? put_facet(&slopes, &facet, piece, foot, 0, &base, pieces, error) : TN_OK;
+}
+
+tn_status tn_layer_prisms(const tn_house *house, const tn_solids *solids, const tn_prism *prism,
+                          const tn_layering *layers, uint32_t layer, tn_solids *pieces, tn_error *error)
+{
+    return prism->kind == TN_SOLID_ROOF ? put_slab_layer(solids, prism, layers, layer, pieces, error)
+                                        : put_gable_layer(house, solids, prism, layers, layer, pieces, error);
 }
 
 /* ---- who covers what */
@@ -157,13 +212,34 @@ static tn_status put_deck(const tn_house *house, uint32_t cell, const tn_rectang
     return status;
 }
 
-static tn_status put_over(const tn_house *house, uint32_t cell, const tn_rectangles *over, const int64_t *base,
+static tn_status put_over(const tn_house *house, uint32_t cell, const tn_rectangles *over, const tn_gable *wall,
                           tn_solids *solids, tn_error *error)
 {
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && i < over->count; i++)
-        status = tn_roof_put(house, cell, over->items[i], base, solids, error);
+        status = tn_roof_put(house, cell, over->items[i], wall, solids, error);
     return status;
+}
+
+/* Walls from a level up; if walls have layers, each as the wall of one of the cell's faces. Takes them out of the
+ * list. */
+static tn_status put_walls(const tn_house *house, uint32_t cell, int64_t base, tn_rectangles *walls, tn_solids *solids,
+                           tn_error *error)
+{
+    bool layered = house->form->layers_end[TN_LAYERED_PARTY] > 0;
+    tn_status status = TN_OK;
+    for (int in_y = 0; layered && in_y < 2; in_y++)
+        for (uint32_t f = 0; status == TN_OK && f < house->face_count; f++) {
+            const tn_face *face = &house->faces[f];
+            tn_rectangles at = {0};
+            if ((face->at.x0 == face->at.x1) != in_y)
+                continue;
+            status = tn_roof_walls_at(house, cell, f, walls, &at, error);
+            if (status == TN_OK)
+                status = put_over(house, cell, &at, &(tn_gable){base, f}, solids, error);
+            free(at.items);
+        }
+    return status == TN_OK ? put_over(house, cell, walls, &(tn_gable){base, TN_NO_FACE}, solids, error) : status;
 }
 
 /* A room that is open to its roof has no deck below that, but where what stands above it leaves one. */
@@ -191,7 +267,7 @@ static tn_status put_parcel(const tn_house *house, const tn_parcel *decked, cons
     if (status == TN_OK)
         status = tn_roof_walls(house, land, foot, &walls, &empty, error);
     if (status == TN_OK)
-        status = put_over(house, land->cell, &walls, &base, solids, error);
+        status = put_walls(house, land->cell, base, &walls, solids, error);
     if (status == TN_OK)
         status = put_over(house, land->cell, &empty, NULL, solids, error);
     free(walls.items);

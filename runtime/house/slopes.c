@@ -250,6 +250,13 @@ static void keep_below(tn_facet *facet, const tn_slope *less, bool level)
     *facet = kept;
 }
 
+void tn_facet_keep(tn_facet *facet, tn_rectangle in)
+{
+    const tn_slope beyond[4] = {{-1, 0, in.x0}, {1, 0, -(tn_int128)in.x1}, {0, -1, in.y0}, {0, 1, -(tn_int128)in.y1}};
+    for (int i = 0; i < 4 && facet->count > 0; i++)
+        keep_below(facet, &beyond[i], false);
+}
+
 static tn_slope difference(const tn_slope *a, const tn_slope *b)
 {
     return (tn_slope){a->x - b->x, a->y - b->y, a->at - b->at};

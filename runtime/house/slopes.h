@@ -72,6 +72,9 @@ typedef struct tn_facet {
 /* Cuts a rectangle into facets, which cover it and do not overlap. Returns how many. */
 size_t tn_slopes_cut(const tn_slopes *slopes, tn_rectangle over, tn_facet facets[TN_FACETS_MAX]);
 
+/* Keeps of a facet what is in a rectangle; none of it is left where that has no area. */
+void tn_facet_keep(tn_facet *facet, tn_rectangle in);
+
 /* The height of a plane at a point, above `base`. */
 tn_fraction tn_slope_at(const tn_slopes *slopes, size_t plane, tn_fraction x, tn_fraction y, int64_t base);
 

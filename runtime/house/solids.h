@@ -45,10 +45,11 @@ typedef struct tn_prism_corner {
 /* Upright over a convex polygon in plan, whose corners go counter-clockwise seen from above; below and above it ends in
  * planes. A roof slab is so thick upright all over; a wall below one is level below. Over one facet of a roof: `plane` is
  * its plane's number among those of the cell's roof, which rises `rise` for each unit along its slope. over: the
- * rectangle that the facet is cut from. */
+ * rectangle that the facet is cut from. item: of a wall, the face of the wall as which it is cut into layers, or
+ * TN_NO_FACE. */
 typedef struct tn_prism {
     tn_solid_kind kind;
-    uint32_t of; /* a cell */
+    uint32_t of, item; /* of: a cell */
     size_t plane;
     tn_fraction rise;
     tn_rectangle over;
@@ -107,8 +108,19 @@ tn_layering tn_solid_layering(const tn_house *house, tn_solid_kind kind, uint32_
 /* How a wall is cut that stands in a face: also if it has no layers. */
 tn_layering tn_face_layering(const tn_house *house, const tn_face *face);
 
+/* How the wall below a roof is cut that stands above a face: as what stands there, and above a partition as an outside
+ * wall, which is as thick. */
+tn_layering tn_gable_layering(const tn_house *house, const tn_face *face);
+
 /* What one of them takes of the solid's box. */
 tn_box tn_layer_box(const tn_layering *layers, uint32_t layer, const tn_box *box);
+
+/* Where it is of a wall below a roof that is cut as the wall of a face, with half a wall beyond the ends of that. */
+tn_rectangle tn_gable_layer_at(const tn_house *house, uint32_t face, const tn_layering *layers, uint32_t layer);
+
+/* Appends what a layer takes of a prism: nothing where that does not reach into it. */
+tn_status tn_layer_prisms(const tn_house *house, const tn_solids *solids, const tn_prism *prism,
+                          const tn_layering *layers, uint32_t layer, tn_solids *pieces, tn_error *error);
 
 /* The face of the wall as which a post is cut: the thicker of those that end there; of equal ones the one along x; of
  * several the first. TN_NO_FACE: no wall is as thick as the post. */
@@ -162,9 +174,15 @@ tn_length_style tn_house_length_style(const tn_house *house);
 
 /* ---- roof.c */
 
-/* Puts the slab of a cell's roof over a rectangle; with a wall below it, from the level `base` up, if that is not NULL.
- */
-tn_status tn_roof_put(const tn_house *house, uint32_t cell, tn_rectangle r, const int64_t *base, tn_solids *solids,
+/* A wall below the slab of a roof: the level from which it goes up, and the face as whose wall it is cut into layers,
+ * or TN_NO_FACE. */
+typedef struct tn_gable {
+    int64_t base;
+    uint32_t face;
+} tn_gable;
+
+/* Puts the slab of a cell's roof over a rectangle, with the wall below it, if that is not NULL. */
+tn_status tn_roof_put(const tn_house *house, uint32_t cell, tn_rectangle r, const tn_gable *wall, tn_solids *solids,
                       tn_error *error);
 
 /* ---- eaves.c */
@@ -190,6 +208,11 @@ bool tn_cell_is_open_above(const tn_house *house, uint32_t cell);
  * rectangles with walls, and those without. */
 tn_status tn_roof_walls(const tn_house *house, const tn_parcel *land, const tn_rectangles *foot, tn_rectangles *walls,
                         tn_rectangles *empty, tn_error *error);
+
+/* Appends which of such walls are cut into layers as the wall of a face of the cell: those within half a wall of that;
+ * where two walls meet, the one along x; of two such, the first. Takes them out of `walls`. */
+tn_status tn_roof_walls_at(const tn_house *house, uint32_t cell, uint32_t face, tn_rectangles *walls,
+                           tn_rectangles *at, tn_error *error);
 
 tn_status tn_solids_add(tn_solids *solids, tn_solid solid, tn_error *error);
 

@@ -42,6 +42,26 @@ static tn_status add_strips(const tn_house *house, uint32_t cell, bool open, tn_
     return status;
 }
 
+tn_status tn_roof_walls_at(const tn_house *house, uint32_t cell, uint32_t index, tn_rectangles *walls,
+                           tn_rectangles *at, tn_error *error)
+{
+    const tn_face *face = &house->faces[index];
+    tn_rectangle strip = tn_rectangle_grown(&face->at, house->form->record->wall / 2);
+    tn_rectangles rest = {0};
+    tn_status status = TN_OK;
+    if (face->relation == TN_FACE_UNDER || (face->first != cell && face->second != cell) ||
+        goes_on(house, face, tn_cell_is_open_above(house, cell)))
+        return TN_OK;
+    for (size_t i = 0; status == TN_OK && i < walls->count; i++)
+        if (tn_rectangles_meet(&walls->items[i], &strip))
+            status = tn_rectangles_add(at, tn_rectangles_common(&walls->items[i], &strip), error);
+    if (status == TN_OK)
+        status = tn_region_cut(walls, at, &rest, error);
+    free(walls->items);
+    *walls = rest;
+    return status;
+}
+
 tn_status tn_roof_walls(const tn_house *house, const tn_parcel *land, const tn_rectangles *foot, tn_rectangles *walls,
                         tn_rectangles *empty, tn_error *error)
 {

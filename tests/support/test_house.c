@@ -23,7 +23,7 @@ static const char text[] =
     "  storey ground 9'\n"
     "  storey loft 8'\n"
     "  wall outside 6\" { boards 1\", studs 5\" }\n  partition 4\" { lining 1\", studs 2\", lining 1\" }\n"
-    "  deck 10\" { floor 1\", joists 9\" }\n  roof 8\"\n"
+    "  deck 10\" { floor 1\", joists 9\" }\n  roof 8\" { tiles 1\", rafters 7\" }\n"
     "  section body storeys = 1 | 2\n"
     "  section body roof = gable(9:12) | shed(back, 3:12) | vault(3')\n"
     "  section bay storeys = 1\n"

@@ -260,11 +260,7 @@ static void check_thicknesses(tn_check *check, tn_checked_form *form)
     form->thickness_ast[TN_LAYERED_PARTY] = of[OF_PARTY] ? of[OF_PARTY] : of[OF_WALL];
     form->thickness_ast[TN_LAYERED_PARTITION] = of[OF_PARTITION];
     form->thickness_ast[TN_LAYERED_DECK] = of[OF_DECK];
-    if (of[OF_ROOF] && of[OF_ROOF]->layered.end > of[OF_ROOF]->layered.begin) {
-        tn_diagnostic *d =
-            tn_report(check->diagnostics, E_BAD_THICKNESS, of[OF_ROOF]->layered, "roofs do not consist of layers");
-        tn_help(check->diagnostics, d, "write `roof %s` alone", of[OF_ROOF]->length->text);
-    }
+    form->thickness_ast[TN_LAYERED_ROOF] = of[OF_ROOF];
 }
 
 /* ---- cells */

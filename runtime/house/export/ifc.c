@@ -220,11 +220,7 @@ static unsigned put_layer_set(tn_ifc *ifc, tn_layered of)
 /* Walls have their layers across, in the direction of their y axis or against it; decks from the top down. */
 static void put_layers(tn_ifc *ifc, tn_layered of)
 {
-    const tn_form_record *form = ifc->house->form->record;
-    const int64_t thick[TN_LAYERED_COUNT] = {[TN_LAYERED_OUTSIDE] = form->wall,
-                                             [TN_LAYERED_PARTY] = form->wall,
-                                             [TN_LAYERED_PARTITION] = form->partition,
-                                             [TN_LAYERED_DECK] = form->deck};
+    int64_t thick = tn_layered_thick(ifc->house->form->record, of);
     unsigned set = 0;
     for (int lie = 0; lie < LIES; lie++) {
         if (ifc->layered[of][lie].count == 0)
@@ -234,7 +230,7 @@ static void put_layers(tn_ifc *ifc, tn_layered of)
             material =
                 tn_stepfile_add(&ifc->step, "IFCMATERIALLAYERSETUSAGE(#%u,.%s.,.%s.,%s,$)", set,
                                 of == TN_LAYERED_DECK ? "AXIS3" : "AXIS2", lie == LIE_ALONG ? "POSITIVE" : "NEGATIVE",
-                                tn_stepfile_mm(lie == LIE_ALONG ? 0 : (double)thick[of]).text);
+                                tn_stepfile_mm(lie == LIE_ALONG ? 0 : (double)thick).text);
         associate(ifc, &ifc->layered[of][lie], "layers", (unsigned)of * LIES + (unsigned)lie, material);
     }
 }
@@ -340,13 +336,19 @@ static bool is_turned(const tn_layering *layers)
     return layers->count > 0 && layers->axis == 0;
 }
 
+static bool is_wall(tn_solid_kind kind)
+{
+    return kind == TN_SOLID_OUTSIDE || kind == TN_SOLID_PARTY || kind == TN_SOLID_PARTITION;
+}
+
 /* Keeps a part for what it is made of. */
 static void keep_made(tn_ifc *ifc, const tn_solid *s, unsigned part)
 {
     const tn_form_record *form = ifc->house->form->record;
     tn_layering layers = tn_solid_layering(ifc->house, s->kind, s->of, s->item);
     if (layers.count > 0) {
-        tn_layers_lie lie = s->kind == TN_SOLID_POST                 ? LIE_ANYHOW
+        bool placed = is_wall(s->kind) || s->kind == TN_SOLID_DECK || s->kind == TN_SOLID_ROOFDECK;
+        tn_layers_lie lie = !placed                                  ? LIE_ANYHOW
                             : layers.from_high == is_turned(&layers) ? LIE_ALONG
                                                                      : LIE_AGAINST;
         tn_stepfile_list_add(&ifc->layered[tn_form_layer(ifc->house->form, layers.first)->of][lie], part);
@@ -380,11 +382,6 @@ static void cover(tn_box *all, const tn_box *b)
     all->y1 = b->y1 > all->y1 ? b->y1 : all->y1;
     all->z0 = b->z0 < all->z0 ? b->z0 : all->z0;
     all->z1 = b->z1 > all->z1 ? b->z1 : all->z1;
-}
-
-static bool is_wall(tn_solid_kind kind)
-{
-    return kind == TN_SOLID_OUTSIDE || kind == TN_SOLID_PARTY || kind == TN_SOLID_PARTITION;
 }
 
 static const tn_swing *swing_of(const tn_ifc *ifc, uint32_t face)
@@ -566,10 +563,11 @@ static unsigned put_prism(tn_ifc *ifc, const tn_prism *prism)
 }
 
 /* Does a prism belong to the same part: a slab is all that lies in one plane of a cell's roof, a wall what stands below
- * it? */
+ * it, and is cut into layers as the wall of one face? */
 static bool is_part(const tn_prism *prism, const tn_prism *of)
 {
-    return prism->kind == of->kind && prism->of == of->of && (of->kind == TN_SOLID_GABLE || prism->plane == of->plane);
+    return prism->kind == of->kind && prism->of == of->of &&
+           (of->kind == TN_SOLID_GABLE ? prism->item == of->item : prism->plane == of->plane);
 }
 
 /* The part that begins with a prism; 0: it begins with one before. */
@@ -598,7 +596,7 @@ static unsigned put_prisms(tn_ifc *ifc, size_t number)
                         tn_stepfile_guid(step, tn_solid_kind_text(first->kind), (unsigned)number).text,
                         tn_solid_kind_text(first->kind), where, body, roof ? "ROOF" : "SOLIDWALL");
     put_volume(ifc, part, roof ? "Qto_SlabBaseQuantities" : "Qto_WallBaseQuantities", volume);
-    keep_made(ifc, &(tn_solid){.kind = first->kind, .of = first->of}, part);
+    keep_made(ifc, &(tn_solid){.kind = first->kind, .of = first->of, .item = first->item}, part);
     ifc->failed |= pieces.text.failed;
     tn_stepfile_list_clear(&pieces);
     return part;

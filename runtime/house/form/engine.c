@@ -162,10 +162,6 @@ static tn_status check_material(const tn_checker *checker, const tn_form_record 
 static tn_status check_layers(const tn_checker *checker, const tn_form_record *form)
 {
     const tn_layer_record *layers = &checker->module->LAYER_records[form->layer_first];
-    const int64_t whole[TN_LAYERED_COUNT] = {[TN_LAYERED_OUTSIDE] = form->wall,
-                                             [TN_LAYERED_PARTY] = form->wall,
-                                             [TN_LAYERED_PARTITION] = form->partition,
-                                             [TN_LAYERED_DECK] = form->deck};
     int64_t thick[TN_LAYERED_COUNT] = {0};
     for (uint32_t i = 0; i < form->layer_count; i++) {
         if (i > 0 && layers[i].of < layers[i - 1].of)
@@ -173,7 +169,7 @@ static tn_status check_layers(const tn_checker *checker, const tn_form_record *f
         thick[layers[i].of] += layers[i].thick;
     }
     for (uint32_t of = 0; of < TN_LAYERED_COUNT; of++)
-        if (thick[of] > 0 && thick[of] != whole[of])
+        if (thick[of] > 0 && thick[of] != tn_layered_thick(form, (tn_layered)of))
             return tn_refuse(checker, "layers of a %s are not as thick as it is", tn_names_LAYERED[of]);
     return TN_OK;
 }

@@ -112,6 +112,15 @@ static inline uint32_t tn_form_layers(const tn_house_form *form, tn_layered of)
     return of == 0 ? 0 : form->layers_end[of - 1];
 }
 
+/* How thick what may consist of layers is. */
+static inline int64_t tn_layered_thick(const tn_form_record *form, tn_layered of)
+{
+    return of == TN_LAYERED_PARTITION ? form->partition
+           : of == TN_LAYERED_DECK    ? form->deck
+           : of == TN_LAYERED_ROOF    ? form->roof
+                                      : form->wall;
+}
+
 /* The height of a storey's rooms: from its floor to the deck above. */
 static inline int64_t tn_form_clear(const tn_house_form *form, uint32_t storey)
 {

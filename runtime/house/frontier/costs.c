@@ -589,16 +589,36 @@ static bool is_priced(const tn_house_form *form, uint32_t part, uint32_t by)
     return false;
 }
 
-/* The same of walls, party walls and partitions, or of decks; of their layers, too. */
-static bool is_built_priced(const tn_house_form *form, bool walls, uint32_t by)
+/* The same of the layers of what is built, by what a material is for. */
+static bool are_layers_priced(const tn_house_form *form, tn_material_part built, uint32_t by)
 {
-    bool priced = walls ? is_priced(form, TN_OF_WALL, by) || is_priced(form, TN_OF_PARTY, by) ||
-                              is_priced(form, TN_OF_PARTITION, by)
-                        : is_priced(form, TN_OF_DECK, by);
+    static const tn_material_part kinds[TN_LAYERED_COUNT] = {[TN_LAYERED_OUTSIDE] = TN_OF_WALL,
+                                                             [TN_LAYERED_PARTY] = TN_OF_PARTY,
+                                                             [TN_LAYERED_PARTITION] = TN_OF_PARTITION,
+                                                             [TN_LAYERED_DECK] = TN_OF_DECK,
+                                                             [TN_LAYERED_ROOF] = TN_OF_ROOF};
+    bool priced = false;
     for (uint32_t i = 0; !priced && i < form->record->layer_count; i++)
-        priced =
-            (tn_form_layer(form, i)->of != TN_LAYERED_DECK) == walls && is_priced(form, tn_layer_part(form, i), by);
+        priced = kinds[tn_form_layer(form, i)->of] == built && is_priced(form, tn_layer_part(form, i), by);
     return priced;
+}
+
+static bool is_built_priced(const tn_house_form *form, tn_material_part built, uint32_t by)
+{
+    return is_priced(form, built, by) || are_layers_priced(form, built, by);
+}
+
+static bool are_walls_priced(const tn_house_form *form, uint32_t by)
+{
+    return is_built_priced(form, TN_OF_WALL, by) || is_built_priced(form, TN_OF_PARTY, by) ||
+           is_built_priced(form, TN_OF_PARTITION, by);
+}
+
+/* The same of roofs, and of the walls below them, which have the layers of party walls above these. */
+static bool are_roofs_priced(const tn_house_form *form)
+{
+    return is_built_priced(form, TN_OF_ROOF, BY_ANY) || is_built_priced(form, TN_OF_WALL, BY_ANY) ||
+           are_layers_priced(form, TN_OF_PARTY, BY_ANY);
 }
 
 static bool are_items_priced(const tn_house_form *form)
@@ -646,7 +666,7 @@ static tn_status check_widths(const tn_frontier *frontier, const tn_roofs *roofs
 {
     const tn_house_form *form = frontier->form;
     int64_t wall = form->record->wall > form->record->partition ? form->record->wall : form->record->partition;
-    int64_t reach = wall + (is_priced(form, TN_OF_ROOF, BY_ANY) ? 2 * roofs->eaves : 0);
+    int64_t reach = wall + (is_built_priced(form, TN_OF_ROOF, BY_ANY) ? 2 * roofs->eaves : 0);
     for (tn_tray t = 0; frontier->trays_most > 1 && t < form->schema->tray_count; t++)
         if (trays[t] && tn_tray_value_record(form->schema, t, form->width)->length < reach)
             return refuse(frontier, "a tray is narrower than the walls and eaves at its sides together",
@@ -666,7 +686,7 @@ static bool is_full(const tn_house_form *form, const tn_opening_record *opening)
 static tn_status check_openings(const tn_frontier *frontier, tn_error *error)
 {
     const tn_house_form *form = frontier->form;
-    bool walls = is_built_priced(form, true, BY_NUMBER);
+    bool walls = are_walls_priced(form, BY_NUMBER);
     if (form->record->guard > 0 && is_priced(form, tn_form_guard_part(form), BY_ANY))
         return refuse(frontier, "where guards stand depends on all trays around a flight or a void",
                       "give guards no price, or ask nothing about costs", error);
@@ -675,10 +695,10 @@ static tn_status check_openings(const tn_frontier *frontier, tn_error *error)
         if (walls && is_full(form, opening))
             return refuse(frontier, "an opening can leave nothing of a wall, and walls have a price each",
                           "give the price of walls per area, or per volume", error);
-        if (opening->turn != TN_TURN_NONE && is_built_priced(form, false, BY_NUMBER))
+        if (opening->turn != TN_TURN_NONE && is_built_priced(form, TN_OF_DECK, BY_NUMBER))
             return refuse(frontier, "flights cut decks in pieces, and these have a price each",
                           "give the price of decks per area, or per volume", error);
-        if (opening->turn == TN_TURN_QUARTER && tn_form_asks_ways(form) && is_built_priced(form, false, BY_ANY))
+        if (opening->turn == TN_TURN_QUARTER && tn_form_asks_ways(form) && is_built_priced(form, TN_OF_DECK, BY_ANY))
             return refuse(frontier, "how large the hole above a flight that turns a quarter is depends on its place",
                           "give decks no price, or ask nothing about costs", error);
         if (opening->turn == TN_TURN_QUARTER && is_priced(form, tn_form_openings_part(form) + i, BY_VOLUME))
@@ -696,8 +716,7 @@ tn_status tn_frontier_prices_begin(tn_frontier *frontier, tn_error *error)
     if (!p->asked)
         return TN_OK;
     p->items = are_items_priced(frontier->form);
-    p->across = roofs_of(frontier).across && (is_priced(frontier->form, TN_OF_ROOF, BY_ANY) ||
-                                              is_priced(frontier->form, TN_OF_WALL, BY_ANY));
+    p->across = roofs_of(frontier).across && are_roofs_priced(frontier->form);
     const uint32_t none = 0; /* the first list is that of a cell in which nothing fits */
     return tn_intern(&p->lists, &none, 0) == UINT32_MAX ? tn_fail_memory(error) : TN_OK;
 }
@@ -705,8 +724,7 @@ tn_status tn_frontier_prices_begin(tn_frontier *frontier, tn_error *error)
 tn_status tn_frontier_prices_check(const tn_frontier *frontier, const bool *trays, tn_error *error)
 {
     tn_roofs roofs = roofs_of(frontier);
-    bool priced = is_priced(frontier->form, TN_OF_ROOF, BY_ANY) || is_priced(frontier->form, TN_OF_WALL, BY_ANY);
-    if (roofs.hip && priced)
+    if (roofs.hip && are_roofs_priced(frontier->form))
         return refuse(frontier, "a section has a hip, whose ends are cut off as far as the whole row says",
                       "keep sections without: `prune section(...)`", error);
     if (frontier->prices.across && roofs.eaves > 0)

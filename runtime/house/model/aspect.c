@@ -187,65 +187,6 @@ static tn_status cut(const tn_house *house, const tn_aspect *aspect, tn_blocks *
     }
 }
 
-/* ---- layers that were cut */
-
-static void find_least_and_main(const tn_layering *layers, double *least, uint32_t *main)
-{
-    int64_t thin = INT64_MAX, thick = 0;
-    for (uint32_t i = layers->first; i < layers->first + layers->count; i++) {
-        int64_t of = tn_form_layer(layers->form, i)->thick;
-        *main = of > thick ? i : *main;
-        thick = of > thick ? of : thick;
-        thin = of < thin ? of : thin;
-    }
-    *least = (double)thin;
-}
-
-/* The layers of a solid where the plane cuts it. */
-static tn_status cut_layers(const tn_solid *solid, const tn_layering *layers, int axis, double at,
-                            tn_house_projection *p, tn_error *error)
-{
-    const int across[2] = {axis == 0 ? 1 : 0, axis == 2 ? 1 : 2};
-    double least = 0;
-    uint32_t main = layers->first;
-    find_least_and_main(layers, &least, &main);
-    for (uint32_t i = layers->first; i < layers->first + layers->count; i++) {
-        tn_box box = tn_layer_box(layers, i, &solid->at);
-        const int64_t ends[3][2] = {{box.x0, box.x1}, {box.y0, box.y1}, {box.z0, box.z1}};
-        if ((double)ends[axis][0] >= at || (double)ends[axis][1] <= at)
-            continue;
-        if (!tn_array_reserve_from(&p->layers, &p->layer_room, 64, p->layer_count, 1, sizeof *p->layers))
-            return tn_fail_memory(error);
-        tn_cut_layer cut = {.layer = i,
-                            .group = tn_solid_groups[solid->kind],
-                            .main = i == main,
-                            .meets = i > layers->first && layers->axis != axis,
-                            .least = least};
-        for (int k = 0; k < 2; k++) {
-            cut.low[k] = (double)ends[across[k]][0];
-            cut.high[k] = (double)ends[across[k]][1];
-            bool ended = across[k] == layers->axis; /* the line is at one end of it */
-            cut.line[0][k] = ended && layers->from_high ? cut.high[k] : cut.low[k];
-            cut.line[1][k] = ended && !layers->from_high ? cut.low[k] : cut.high[k];
-        }
-        p->layers[p->layer_count++] = cut;
-    }
-    return TN_OK;
-}
-
-static tn_status gather_layers(const tn_house *house, const tn_solids *solids, int axis, double at,
-                               tn_house_projection *projection, tn_error *error)
-{
-    tn_status status = TN_OK;
-    for (size_t i = 0; status == TN_OK && house->form->record->layer_count > 0 && i < solids->box_count; i++) {
-        const tn_solid *s = &solids->boxes[i];
-        tn_layering layers = tn_solid_layering(house, s->kind, s->of, s->item);
-        if (layers.count > 0)
-            status = cut_layers(s, &layers, axis, at, projection, error);
-    }
-    return status;
-}
-
 static void measure(tn_house_projection *projection)
 {
     tn_eye eye = tn_camera_eye(&projection->camera);
@@ -358,7 +299,7 @@ tn_status tn_house_projection_take(const tn_house *house, const tn_solids *solid
         status = tn_blocks_mesh(&blocks, TN_GROUP_COUNT + (grouping ? grouping->more : 0), &projection->mesh, error);
     }
     if (status == TN_OK && axis >= 0)
-        status = gather_layers(house, solids, axis, at, projection, error);
+        status = tn_cut_layers(house, solids, axis, at, projection, error);
     drop_item_cuts(&blocks, aspect->kind == TN_ASPECT_PLAN);
     if (status == TN_OK) {
         projection->cuts = blocks.cuts;

@@ -49,12 +49,13 @@ static inline tn_camera tn_house_sheet_camera(void)
 }
 
 /* A layer of what was cut, with the form's number of it. main: the thickest of those there, or the first of such.
- * least: how thick the thinnest is. line: where it meets the layer before it, if that was cut, too. */
+ * least: how thick the thinnest is. line: where it meets the layer before it, if that was cut, too; not where slabs of
+ * roofs are cut level. */
 typedef struct tn_cut_layer {
     uint32_t layer, group;
     bool main, meets;
     double least;
-    double low[2], high[2], line[2][2];
+    double at[4][2], line[2][2];
 } tn_cut_layer;
 
 typedef struct tn_house_projection {
@@ -81,6 +82,10 @@ typedef struct tn_grouping {
  * have. */
 tn_status tn_house_projection_take(const tn_house *house, const tn_solids *solids, const tn_aspect *aspect,
                                    const tn_grouping *grouping, tn_house_projection *projection, tn_error *error);
+
+/* ---- cut_layers.c: adds the layers that the plane across an axis cuts */
+tn_status tn_cut_layers(const tn_house *house, const tn_solids *solids, int axis, double at,
+                        tn_house_projection *projection, tn_error *error);
 
 /* Makes the marks anew, with lettering so high in nanometres of the house. */
 tn_status tn_house_projection_mark(const tn_house *house, double lettering, tn_house_projection *projection,

@@ -299,20 +299,40 @@ static tn_status add_broken(const tn_breaking *b, const tn_prism_polygon *polygo
     return status == TN_OK ? add_broken(b, &rest, axis + 1, error) : status;
 }
 
-static tn_status add_prism(tn_blocks *blocks, const tn_solids *solids, const tn_prism *prism, double slab,
-                           const tn_breaks *breaks, tn_error *error)
+static tn_prism_polygon polygon_of_prism(const tn_solids *solids, const tn_prism *prism)
 {
     tn_prism_polygon polygon = {.count = prism->corner_count};
     for (size_t i = 0; i < polygon.count; i++)
         polygon.corners[i] = solids->corners[prism->corner_first + i];
+    return polygon;
+}
+
+static tn_status add_prism(tn_blocks *blocks, const tn_solids *solids, const tn_prism *prism, double slab,
+                           const tn_breaks *breaks, tn_error *error)
+{
+    tn_prism_polygon polygon = polygon_of_prism(solids, prism);
     const tn_breaking breaking = {.blocks = blocks,
                                   .breaks = breaks,
                                   .like = {.kind = prism->kind,
                                            .group = prism->kind,
                                            .of = prism->of,
+                                           .item = prism->item,
                                            .slab = prism->kind == TN_SOLID_GABLE ? slab : 0},
                                   .along = {slopes_along(&polygon, 0), slopes_along(&polygon, 1)}};
     return add_broken(&breaking, &polygon, 0, error);
+}
+
+tn_status tn_blocks_of_prisms(const tn_solids *solids, tn_blocks *blocks, tn_error *error)
+{
+    *blocks = (tn_blocks){0};
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < solids->prism_count; i++) {
+        const tn_prism *prism = &solids->prisms[i];
+        tn_breaking whole = {.blocks = blocks, .like = {.kind = prism->kind, .of = prism->of}};
+        tn_prism_polygon polygon = polygon_of_prism(solids, prism);
+        status = add_exact(&whole, &polygon, error);
+    }
+    return status;
 }
 
 tn_status tn_blocks_of(const tn_house *house, const tn_solids *solids, tn_blocks *blocks, tn_error *error)

@@ -19,7 +19,7 @@ typedef struct tn_block_corner {
     double x, y, low, high;
 } tn_block_corner;
 
-/* of, item: as in tn_solid; of a prism, the cell. group: of its faces in a mesh; at first its kind. slab: how thick the
+/* of, item: as in tn_solid or tn_prism. group: of its faces in a mesh; at first its kind. slab: how thick the
  * slab above a wall is that lies on it; 0 if none does. */
 typedef struct tn_house_block {
     tn_solid_kind kind;
@@ -47,6 +47,9 @@ void tn_blocks_clear(tn_blocks *blocks);
 
 /* The blocks of a house, with the leaves of its doors and the panes of its windows (tn_house_leaves). */
 tn_status tn_blocks_of(const tn_house *house, const tn_solids *solids, tn_blocks *blocks, tn_error *error);
+
+/* Blocks of prisms alone, which are not cut so that they fit together. */
+tn_status tn_blocks_of_prisms(const tn_solids *solids, tn_blocks *blocks, tn_error *error);
 
 /* Keeps what lies below (or, `above`, beyond) the plane across an axis, in blocks->items; blocks->cuts are the faces in
  * the plane of what was cut through. */

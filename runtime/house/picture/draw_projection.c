@@ -79,8 +79,10 @@ static bool is_drawn(const tn_drawing_frame *f, const tn_cut_layer *layer)
 
 static void trace_layer(const tn_drawing_frame *f, const tn_cut_layer *layer)
 {
-    double x = place_u(f, layer->low[0]), y = place_v(f, layer->high[1]);
-    tn_paint_rectangle(f->paint, x, y, place_u(f, layer->high[0]) - x, place_v(f, layer->low[1]) - y);
+    tn_paint_new_sub_path(f->paint);
+    for (int k = 0; k < 4; k++)
+        tn_paint_line_to(f->paint, place_u(f, layer->at[k][0]), place_v(f, layer->at[k][1]));
+    tn_paint_close_path(f->paint);
 }
 
 static void trace_joint(const tn_drawing_frame *f, const tn_cut_layer *layer)

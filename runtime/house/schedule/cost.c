@@ -235,9 +235,8 @@ static void measure_triangle(const tn_prism_corner *a, const tn_prism_corner *b,
     mpq_clears(x, y, NULL);
 }
 
-/* The area and the volume of a prism: of a slab along its slope, of a wall below one as if all of it were as thick as
- * a wall. */
-static void add_prism(const tn_house *house, const tn_solids *solids, const tn_prism *prism, tn_cost_line *line)
+/* The area and the volume of a prism: of a slab along its slope, of a wall below one as if all of it were so thick. */
+static void add_prism(const tn_solids *solids, const tn_prism *prism, int64_t thick, tn_cost_line *line)
 {
     const tn_prism_corner *corners = solids->corners + prism->corner_first;
     mpq_t twice, thrice, plan, volume;
@@ -257,11 +256,30 @@ static void add_prism(const tn_house *house, const tn_solids *solids, const tn_p
         set_slope(twice, thrice);
         mpq_mul(plan, plan, twice);
     } else {
-        mpq_set_si(twice, house->form->record->wall, 1);
+        mpq_set_si(twice, thick, 1);
         mpq_div(plan, volume, twice);
     }
     mpq_add(line->area, line->area, plan);
     mpq_clears(twice, thrice, plan, volume, NULL);
+}
+
+/* Each layer of a prism, on the line of its part. */
+static tn_status add_prism_layers(const tn_house *house, const tn_solids *solids, const tn_prism *prism, bool counts,
+                                  const tn_costs *costs, tn_error *error)
+{
+    tn_layering layers = tn_solid_layering(house, prism->kind, prism->of, prism->item);
+    tn_solids pieces = {0};
+    tn_status status = TN_OK;
+    for (uint32_t i = layers.first; status == TN_OK && i < layers.first + layers.count; i++) {
+        tn_cost_line *line = &costs->lines[tn_layer_part(house->form, i)];
+        pieces.prism_count = pieces.corner_count = 0;
+        status = tn_layer_prisms(house, solids, prism, &layers, i, &pieces, error);
+        for (size_t k = 0; status == TN_OK && k < pieces.prism_count; k++)
+            add_prism(&pieces, &pieces.prisms[k], tn_form_layer(house->form, i)->thick, line);
+        line->count += counts;
+    }
+    tn_solids_clear(&pieces);
+    return status;
 }
 
 /* A cell has one roof, in however many pieces; the walls below it are no walls more. */
@@ -270,17 +288,23 @@ static tn_status add_roofs(const tn_house *house, const tn_solids *solids, tn_co
     bool *counted = calloc(house->cell_count + 1, sizeof *counted);
     if (!counted)
         return tn_fail_memory(error);
-    for (size_t i = 0; i < solids->prism_count; i++) {
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < solids->prism_count; i++) {
         const tn_prism *prism = &solids->prisms[i];
         if (prism->kind == TN_SOLID_FLIGHT)
             continue;
-        tn_cost_line *line = &costs->lines[tn_solid_made_part(house, prism->kind, prism->of, 0)];
-        add_prism(house, solids, prism, line);
-        line->count += prism->kind == TN_SOLID_ROOF && !counted[prism->of];
-        counted[prism->of] = true;
+        bool counts = prism->kind == TN_SOLID_ROOF && !counted[prism->of];
+        counted[prism->of] = counted[prism->of] || counts;
+        if (tn_solid_layering(house, prism->kind, prism->of, prism->item).count > 0) {
+            status = add_prism_layers(house, solids, prism, counts, costs, error);
+            continue;
+        }
+        tn_cost_line *line = &costs->lines[tn_solid_made_part(house, prism->kind, prism->of, prism->item)];
+        add_prism(solids, prism, house->form->record->wall, line);
+        line->count += counts;
     }
     free(counted);
-    return TN_OK;
+    return status;
 }
 
 /* ---- costs */

@@ -20,6 +20,12 @@ typedef struct tn_cost_line {
     mpz_t hundredths;
 } tn_cost_line;
 
+/* Is there some of it? Walls below roofs are no walls more, and may be all that there is of a part. */
+static inline bool tn_cost_line_stands(const tn_cost_line *line)
+{
+    return line->count > 0 || mpq_sgn(line->volume) > 0;
+}
+
 typedef struct tn_costs {
     tn_cost_line *lines; /* one for each part that the form can have, in the order of their numbers */
     size_t count;

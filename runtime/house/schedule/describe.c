@@ -245,11 +245,8 @@ static void put_solids(const tn_house *house, const tn_solids *solids, tn_json *
     tn_json_list_end(json);
 }
 
-static void put_prism(const tn_solids *solids, const tn_prism *prism, tn_json *json)
+static void put_corners(const tn_solids *solids, const tn_prism *prism, tn_json *json)
 {
-    tn_json_object(json, NULL);
-    tn_json_string(json, "kind", tn_solid_kind_text(prism->kind));
-    tn_json_count(json, "of", prism->of);
     tn_json_list(json, "corners");
     for (size_t k = 0; k < prism->corner_count; k++) {
         const tn_prism_corner *corner = &solids->corners[prism->corner_first + k];
@@ -261,6 +258,41 @@ static void put_prism(const tn_solids *solids, const tn_prism *prism, tn_json *j
         tn_json_list_end(json);
     }
     tn_json_list_end(json);
+}
+
+/* The layers of a prism, each with its corners: one may be in pieces. */
+static void put_prism_layers(const tn_house *house, const tn_solids *solids, const tn_prism *prism, tn_json *json)
+{
+    tn_layering layers = tn_solid_layering(house, prism->kind, prism->of, prism->item);
+    tn_solids pieces = {0};
+    tn_error error;
+    if (layers.count == 0)
+        return;
+    tn_json_list(json, "layers");
+    for (uint32_t i = layers.first; i < layers.first + layers.count; i++) {
+        pieces.prism_count = pieces.corner_count = 0;
+        json->text->failed |= tn_layer_prisms(house, solids, prism, &layers, i, &pieces, &error) != TN_OK;
+        for (size_t k = 0; k < pieces.prism_count; k++) {
+            tn_json_object(json, NULL);
+            tn_json_string(json, "name", tn_text(house->form->module, tn_form_layer(house->form, i)->name));
+            tn_json_whole(json, "thick", tn_form_layer(house->form, i)->thick);
+            put_corners(&pieces, &pieces.prisms[k], json);
+            tn_json_object_end(json);
+        }
+    }
+    tn_json_list_end(json);
+    tn_solids_clear(&pieces);
+}
+
+static void put_prism(const tn_house *house, const tn_solids *solids, const tn_prism *prism, tn_json *json)
+{
+    tn_json_object(json, NULL);
+    tn_json_string(json, "kind", tn_solid_kind_text(prism->kind));
+    tn_json_count(json, "of", prism->of);
+    if (prism->kind == TN_SOLID_GABLE && prism->item != TN_NO_FACE)
+        tn_json_count(json, "face", prism->item);
+    put_corners(solids, prism, json);
+    put_prism_layers(house, solids, prism, json);
     tn_json_object_end(json);
 }
 
@@ -273,12 +305,12 @@ static bool has_wedges(const tn_solids *solids)
 }
 
 /* Those of roofs and of the walls below them, or the wedges of flights. */
-static void put_prisms(const tn_solids *solids, const char *name, bool wedges, tn_json *json)
+static void put_prisms(const tn_house *house, const tn_solids *solids, const char *name, bool wedges, tn_json *json)
 {
     tn_json_list(json, name);
     for (size_t i = 0; i < solids->prism_count; i++)
         if ((solids->prisms[i].kind == TN_SOLID_FLIGHT) == wedges)
-            put_prism(solids, &solids->prisms[i], json);
+            put_prism(house, solids, &solids->prisms[i], json);
     tn_json_list_end(json);
 }
 
@@ -329,7 +361,7 @@ static void put_parts(const tn_house *house, const tn_costs *costs, tn_json *jso
 {
     tn_json_list(json, "parts");
     for (size_t i = 0; i < costs->count; i++)
-        if (costs->lines[i].count > 0)
+        if (tn_cost_line_stands(&costs->lines[i]))
             put_part(house, &costs->lines[i], json);
     tn_json_list_end(json);
 }
@@ -344,9 +376,9 @@ static tn_status put_house(const tn_house *house, const tn_solids *solids, const
     tn_status status = put_faces(house, json, error);
     put_rooms(house, rooms, json);
     put_solids(house, solids, json);
-    put_prisms(solids, "roofs", false, json);
+    put_prisms(house, solids, "roofs", false, json);
     if (has_wedges(solids))
-        put_prisms(solids, "wedges", true, json);
+        put_prisms(house, solids, "wedges", true, json);
     put_parts(house, costs, json);
     if (tn_form_has_costs(house->form))
         put_money(json, "cost", costs->hundredths);
@@ -474,7 +506,7 @@ tn_status tn_house_parts(const tn_house *house, const tn_solids *solids, tn_buff
     const tn_table_unit unit = unit_of(house);
     tn_buffer_printf(out, "part,number,area_%s,volume_%s,material,price,per,cost\r\n", unit.square, unit.cube);
     for (size_t i = 0; status == TN_OK && i < costs.count; i++)
-        if (costs.lines[i].count > 0)
+        if (tn_cost_line_stands(&costs.lines[i]))
             put_part_row(house, &costs.lines[i], unit.length, out);
     if (status == TN_OK && tn_form_has_costs(house->form)) {
         tn_buffer_printf(out, "total,,,,,,,");

@@ -137,10 +137,10 @@ static void test_changes_with_the_right_hash_are_harmless(void **state)
     assert_true(refused > 1000 && loaded > 100); /* both happen, or the test tests nothing */
 }
 
-/* A form whose walls have layers of lengths that nothing else has. */
+/* A form whose walls and roofs have layers of lengths that nothing else has. */
 static const char layered[] = "schema s { front = 4m  zone body role band = space(6m) role void }\n"
                               "form f of s { storey ground 3m wall outside 200mm { boards 63mm, studs 137mm }\n"
-                              "  partition 100mm { studs 100mm } deck 300mm roof 200mm function hall at cell(body) }\n";
+                              "  partition 100mm { studs 100mm } deck 300mm roof 240mm { tiles 31mm, rafters 209mm } function hall at cell(body) }\n";
 
 /* Puts another number, of eight bytes, in the place of one that is there once. */
 static void put_in_place(uint8_t *bytes, size_t size, int64_t from, int64_t to)
@@ -160,19 +160,20 @@ static void test_layers_fill_what_they_are_layers_of(void **state)
 {
     (void)state;
     static const struct {
-        int64_t thick;
+        int64_t from, thick;
         const char *reason;
-    } changes[] = {{INT64_C(137000001), "not as thick as it is"},
-                   {INT64_C(136999999), "not as thick as it is"},
-                   {INT64_C(-137000000), "thick"},
-                   {INT64_C(137000000), NULL}};
+    } changes[] = {{INT64_C(137000000), INT64_C(137000001), "not as thick as it is"},
+                   {INT64_C(137000001), INT64_C(136999999), "not as thick as it is"},
+                   {INT64_C(136999999), INT64_C(-137000000), "thick"},
+                   {INT64_C(-137000000), INT64_C(137000000), NULL},
+                   {INT64_C(209000000), INT64_C(209000001), "layers of a roof are not as thick as it is"},
+                   {INT64_C(209000001), INT64_C(209000000), NULL}};
     tn_compilation compilation;
     assert_int_equal(compile_text("layered.plan", layered, sizeof layered - 1, &options, &compilation), TN_OK);
     for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
         tn_module *module;
         tn_error error = {0};
-        put_in_place(compilation.module, compilation.module_size, i == 0 ? INT64_C(137000000) : changes[i - 1].thick,
-                     changes[i].thick);
+        put_in_place(compilation.module, compilation.module_size, changes[i].from, changes[i].thick);
         tn_status status = tn_module_load(compilation.module, compilation.module_size, NULL, &module, &error);
         assert_int_equal(status, changes[i].reason ? TN_INVALID : TN_OK);
         if (changes[i].reason && !strstr(error.message, changes[i].reason))
