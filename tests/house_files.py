@@ -364,11 +364,11 @@ def leaves_of(made, door, opening):
 
 
 def drawn_leaves(drawing):
-    """The same of a plan: a quarter of a circle about the hinge, and a line from there to one of its ends."""
-    lines = [((F(e["10"]), F(e["20"])), (F(e["11"]), F(e["21"]))) for e in drawing if (e["0"], e["8"]) == ("LINE", "DOORS")]
-    quarter = {0: (1, 0), 90: (0, 1), 180: (-1, 0), 270: (0, -1)}
+    """The same of a plan, whose front is below: a quarter of a circle about the hinge, and a line from there to one of its ends."""
+    lines = [((-F(e["10"]), -F(e["20"])), (-F(e["11"]), -F(e["21"]))) for e in drawing if (e["0"], e["8"]) == ("LINE", "DOORS")]
+    quarter = {180: (1, 0), 270: (0, 1), 0: (-1, 0), 90: (0, -1)}
     for arc in (e for e in drawing if (e["0"], e["8"]) == ("ARC", "DOORS")):
-        hinge = F(arc["10"]), F(arc["20"])
+        hinge = -F(arc["10"]), -F(arc["20"])
         ends = [tuple(c + F(arc["40"]) * d for c, d in zip(hinge, quarter[int(float(arc[code]))])) for code in ("50", "51")]
         drawn = [i for i in (0, 1) if any(near(a, hinge) and near(b, ends[i]) for a, b in lines)]
         check("a leaf is drawn open", len(drawn) == 1)
@@ -409,7 +409,7 @@ def check_doors(made, house, groups):
         if not inside or not plan:
             continue
         cut = [e for e in plan if (e["0"], e["8"]) == ("LINE", "WALLS-CUT")]
-        corner = [min(F(e[code]) for e in cut for code in codes) for codes in (("10", "11"), ("20", "21"))]
+        corner = [min(-F(e[code]) for e in cut for code in codes) for codes in (("10", "11"), ("20", "21"))]
         moved = [min(box_of(made, n)[0][k] for n in inside) - corner[k] for k in range(2)]
         drawn = [tuple(tuple(c + m for c, m in zip(point, moved)) for point in leaf) for leaf in drawn_leaves(plan)]
         doors = [n for n in contained if contained[n] == storey and made[n][0] == "IFCDOOR"]
@@ -435,6 +435,20 @@ def read_dxf(path):
     return list(zip(lines[0:-1:2], lines[1::2]))
 
 
+def check_whole(title, drawing):
+    """No two lines of a layer lie in one line and touch: an edge is one line. (Not those of doors and stairs, which meet in their symbols.)"""
+    by_line = {}
+    for e in (e for e in drawing if e["0"] == "LINE" and e["8"] not in ("DOORS", "STAIRS", "HATCH")):
+        (a, b), (c, d) = (float(e["10"]), float(e["20"])), (float(e["11"]), float(e["21"]))
+        for along, across, low, high in ((0, b, a, c), (1, a, b, d)):
+            if abs((d - b) if along == 0 else (c - a)) < 1e-6:
+                by_line.setdefault((e["8"], along, round(across, 3)), []).append((min(low, high), max(low, high)))
+    for key, pieces in by_line.items():
+        pieces.sort()
+        touching = [(p, q) for p, q in zip(pieces, pieces[1:]) if q[0] <= p[1] + 1e-3]
+        check(f"{title}: {key} is one line, not {touching[:1]}", not touching)
+
+
 def check_dxf(path, groups, house):
     check("codes are numbers", all(code.strip().isdigit() for code, _ in groups))
     check("ends", groups[-1] == ("0", "EOF"))
@@ -448,7 +462,13 @@ def check_dxf(path, groups, house):
             used[value] += 1
     check(f"layers {set(used) - known}", set(used) <= known)
     said = {unescaped(e["1"]) for drawing in drawings_of(groups).values() for e in drawing if e.get("8") == "NAMES"}
-    names = {text for text in said if not re.fullmatch(r"[\d.]+ (sf|m2)", text)}
+    names = {text for text in said if not re.fullmatch(r"[\d.]+( (sf|m\u00b2))?", text)}
+    net = [float(F(r["net"]) / F(10) ** 18) for r in house["rooms"]]
+    written = {f"{area:.1f} m\u00b2" for area in net} | {f"{area / 0.3048 ** 2:.0f} sf" for area in net}
+    check("areas are net", {text for text in said if text.endswith(("sf", "\u00b2"))} <= written)
+    check("as many numbers as rooms", len([text for text in said if re.fullmatch(r"[\d.]+", text)]) >= len(net))
+    for title, drawing in drawings_of(groups).items():
+        check_whole(title, drawing)
     rooms = {re.sub("[-_]", " ", r["function"]) for r in house["rooms"]}
     check(f"names {names} are of the rooms {rooms}", names and all(any(room.startswith(name) for room in rooms) for name in names))
     for layer in ("WALLS", "FLOORS", "WALLS-CUT", "FLOORS-CUT", "HATCH", "DIMENSIONS", "NAMES", "TITLES"):

@@ -27,7 +27,7 @@ typedef struct looking {
     shade *shades; /* of the line at hand; owned */
     size_t shade_count, shade_room;
     double tolerance;
-    uint32_t face; /* of the line at hand */
+    uint32_t face, other; /* of the line at hand */
     tn_seen_line *lines;
     size_t line_count, line_room;
 } looking;
@@ -109,6 +109,7 @@ static bool add_line(looking *l, const double p[3], const double q[3], double fr
         return false;
     tn_seen_line *line = &l->lines[l->line_count++];
     line->face = l->face;
+    line->other = l->other;
     for (int k = 0; k < 3; k++) {
         line->from[k] = p[k] + from * (q[k] - p[k]);
         line->to[k] = p[k] + to * (q[k] - p[k]);
@@ -171,9 +172,9 @@ static tn_status cut_all(looking *l, const bool *creases, const uint32_t *twins,
         uint32_t a = mesh->corners[c], b = mesh->corners[c % 3 == 2 ? c - 2 : c + 1];
         if (!creases[c] || a >= b)
             continue;
-        l->face = (uint32_t)(c / 3);
-        if (!faces_eye(l, l->face) && twins[c] != TN_NO_TWIN)
-            l->face = twins[c] / 3;
+        uint32_t own = (uint32_t)(c / 3), twin = twins[c] == TN_NO_TWIN ? own : twins[c] / 3;
+        l->face = faces_eye(l, own) ? own : twin;
+        l->other = faces_eye(l, twin) ? twin : l->face;
         if (!cut_line(l, l->points[a], l->points[b]))
             return tn_fail_memory(error);
     }

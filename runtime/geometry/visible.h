@@ -12,7 +12,8 @@
 /* From the eye: to the right, up, and towards it. */
 typedef struct tn_seen_line {
     double from[3], to[3];
-    uint32_t face; /* one of the two triangles that meet there: where only one faces the eye, that */
+    uint32_t face;  /* one of the two triangles that meet there: where only one faces the eye, that */
+    uint32_t other; /* the other one, if it faces the eye, too; or `face` again */
 } tn_seen_line;
 
 /* The lines of a closed mesh of triangles: parts of creases that no triangle hides. What lies nearer behind a triangle

@@ -72,7 +72,7 @@ typedef struct tn_view_options {
 } tn_view_options;
 
 /* Paints a view on a canvas: model units times `scale` are points, and the eye's origin lies at (x, y). palette:
- * colours of groups, in sRGB; NULL: as in tn_views_draw. line: how thick edges are, in points. */
+ * colours of groups, in sRGB; NULL: as in tn_views_draw. line: how thick edges are, in points; 0: none is drawn. */
 typedef struct tn_view_place {
     double x, y, scale, line;
     double ambient; /* 0 to 1: this share of the light comes from all around */

@@ -685,6 +685,8 @@ static void paint_faces(const tn_brush *brush, const tn_seen_face *faces, size_t
     set_width(brush, seam);
     for (size_t f = 0; f < count; f++)
         draw_seams(brush, &faces[f], &clear);
+    if (place->line <= 0)
+        return;
     set_width(brush, clear.line);
     for (size_t f = 0; f < count; f++)
         draw_mends(brush, &faces[f], &clear, place->fade);

@@ -54,7 +54,7 @@ alike table 3 4 draw "$files/sheds.plan" --library sheds --sample 5 --seed 1 -o
 alike rule 8 5 draw lahave --rule stranded --rule thin-totem -o
 alike explanation 7 5 explain lahave-houses "$plan" --full -o
 alike dropped 9 5 explain "$files/cabins.plan" "14' room:14' none | 14' room:14' none ; 1 gable(9:12) 1 flat ; bedroom | bedroom ; wall wall wall wall wall wall" -o
-alike house 3 4 house "$files/cabins.plan" '#10:77' -o
+alike house 4 6 house "$files/cabins.plan" '#10:77' -o
 alike histogram 4 4 count "$ward" -l short-strip --by capacity -o
 alike front 6 8 pareto "$ward" -l short-strip --most capacity --least floor -o
 alike open 8 5 complete "$ward" '3000mm beds | ? | station | ... | not store' -l short-strip --least floor -o
@@ -62,7 +62,7 @@ alike derivation 4 4 map genr8 --genome '1 2 3 4 5 6 7 8 9 10 11 12' --tree
 alike surface 2 2 grow square -n 3 -o
 alike surroundings 4 3 grow square -n 2 --boundary 'sphere at 0 0 -1 radius 1' --attractor 'at 2 0 1 strength 0.2' --gravity '0 0 -0.1' -o
 alike boxes 3 4 draw table --sheet -o
-by_chromium house 4 5
+by_chromium house 4 6
 by_chromium sheet 4 6
 
 # Symbols that are turned and mirrored, all hatches, dimensions.

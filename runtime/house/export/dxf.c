@@ -2,7 +2,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "runtime/geometry/visible.h"
 #include "runtime/house/export/dxf_file.h"
 #include "runtime/house/export/export.h"
 
@@ -11,7 +10,6 @@
 #define HATCH_MOST 10000
 #define GAP_NM 3e9
 #define HEIGHT_MM 20000.0 /* that a viewer shows first */
-#define TOLERANCE_NM 1000.0
 
 /* Layers of marks come first, in the order of tn_mark_layer; then what is seen of the parts, and what is cut, in the
  * order of tn_material_group. */
@@ -30,6 +28,8 @@ static const tn_dxf_layer layers[LAYER_COUNT] = {
     [TN_MARK_GROUND] = {"GROUND", 7, false},
     [TN_MARK_DIMENSION] = {"DIMENSIONS", 8, false},
     [TN_MARK_NAME] = {"NAMES", 7, false},
+    [TN_MARK_TAG] = {"TAGS", 7, false},
+    [TN_MARK_SECTION] = {"SECTIONS", 7, false},
     [LAYER_SEEN + TN_GROUP_WALL] = {"WALLS", 7, false},
     [LAYER_SEEN + TN_GROUP_FLOOR] = {"FLOORS", 9, false},
     [LAYER_SEEN + TN_GROUP_ROOF] = {"ROOFS", 8, false},
@@ -37,6 +37,7 @@ static const tn_dxf_layer layers[LAYER_COUNT] = {
     [LAYER_SEEN + TN_GROUP_PANE] = {"PANES", 150, false},
     [LAYER_SEEN + TN_GROUP_LEAF] = {"LEAVES", 30, false},
     [LAYER_SEEN + TN_GROUP_GUARD] = {"GUARDS", 34, false},
+    [LAYER_SEEN + TN_GROUP_FLIGHT] = {"FLIGHTS", 9, false},
     [LAYER_CUT + TN_GROUP_WALL] = {"WALLS-CUT", 1, false},
     [LAYER_CUT + TN_GROUP_FLOOR] = {"FLOORS-CUT", 1, false},
     [LAYER_CUT + TN_GROUP_ROOF] = {"ROOFS-CUT", 1, false},
@@ -44,6 +45,7 @@ static const tn_dxf_layer layers[LAYER_COUNT] = {
     [LAYER_CUT + TN_GROUP_PANE] = {"PANES-CUT", 150, false},
     [LAYER_CUT + TN_GROUP_LEAF] = {"LEAVES-CUT", 30, false},
     [LAYER_CUT + TN_GROUP_GUARD] = {"GUARDS-CUT", 1, false},
+    [LAYER_CUT + TN_GROUP_FLIGHT] = {"FLIGHTS-CUT", 1, false},
     [LAYER_HATCH] = {"HATCH", 253, false},
     [LAYER_TITLE] = {"TITLES", 7, false},
 };
@@ -91,6 +93,10 @@ static void mark(tn_dxf *dxf, const tn_mark *m)
         text(dxf, m->layer, m->u0, m->v0, 0.7 * m->high, m->upright, m->text);
     } else if (m->kind == TN_MARK_LINE) {
         line(dxf, m->layer, m->u0, m->v0, m->u1, m->v1);
+    } else if (m->kind == TN_MARK_CIRCLE) {
+        begin(dxf, "CIRCLE", "AcDbCircle", m->layer);
+        point(dxf, 10, m->u0, m->v0);
+        fprintf(dxf->out, "40\n%.6f\n", fabs(m->u1 - m->u0) / 1e6);
     } else {
         double u = m->u1 - m->u0, v = m->v1 - m->v0;
         int from = fabs(u) > fabs(v) ? (u > 0 ? 0 : 180) : (v > 0 ? 90 : 270);
@@ -128,42 +134,23 @@ static void hatch(tn_dxf *dxf, const tn_cut_face *face, double apart)
     }
 }
 
-/* How near the plane of the cut is to the eye; INFINITY where nothing is cut. */
-static double cut_depth(const tn_house_projection *p, const tn_seen_line *lines, size_t count)
+static void write_projection(tn_dxf *dxf, const tn_house_projection *p)
 {
-    double depth = -INFINITY;
-    bool cut = p->aspect.kind == TN_ASPECT_PLAN || p->aspect.kind == TN_ASPECT_SECTION_X ||
-               p->aspect.kind == TN_ASPECT_SECTION_Y;
-    for (size_t i = 0; i < count; i++)
-        depth = fmax(depth, fmax(lines[i].from[2], lines[i].to[2]));
-    return cut ? depth - TOLERANCE_NM : INFINITY;
-}
-
-static tn_status write_projection(tn_dxf *dxf, const tn_house_projection *p, tn_error *error)
-{
-    tn_eye eye = tn_camera_eye(&p->camera);
-    tn_seen_line *lines;
-    size_t count;
-    tn_status status = tn_mesh_visible(&p->mesh, &eye, TOLERANCE_NM, &lines, &count, error);
-    double depth = cut_depth(p, lines, count),
-           apart = fmax(HATCH_NM, (p->high[0] - p->low[0] + p->high[1] - p->low[1]) / HATCH_MOST);
-    for (size_t i = 0; status == TN_OK && i < count; i++) {
-        const double *a = lines[i].from, *b = lines[i].to;
-        int group = (int)p->mesh.face_group[lines[i].face];
-        line(dxf, (a[2] > depth && b[2] > depth ? LAYER_CUT : LAYER_SEEN) + group, a[0], a[1], b[0], b[1]);
+    double apart = fmax(HATCH_NM, (p->high[0] - p->low[0] + p->high[1] - p->low[1]) / HATCH_MOST);
+    for (size_t i = 0; i < p->line_count; i++) {
+        const tn_drawn_line *l = &p->lines[i];
+        line(dxf, (l->cut ? LAYER_CUT : LAYER_SEEN) + (int)l->group, l->at[0][0], l->at[0][1], l->at[1][0],
+             l->at[1][1]);
     }
-    for (size_t i = 0; status == TN_OK && i < p->cut_count; i++)
+    for (size_t i = 0; i < p->cut_count; i++)
         if (p->cuts[i].kind != TN_SOLID_PANE && p->cuts[i].kind != TN_SOLID_LEAF)
             hatch(dxf, &p->cuts[i], apart);
-    for (size_t i = 0; status == TN_OK && i < p->layer_count; i++) {
-        const tn_cut_layer *l = &p->layers[i];
-        if (l->meets)
-            line(dxf, LAYER_CUT + (int)l->group, l->line[0][0], l->line[0][1], l->line[1][0], l->line[1][1]);
+    for (size_t i = 0; i < p->joint_count; i++) {
+        const tn_drawn_line *l = &p->joints[i];
+        line(dxf, LAYER_CUT + (int)tn_joint_layer(p, l)->group, l->at[0][0], l->at[0][1], l->at[1][0], l->at[1][1]);
     }
-    for (size_t i = 0; status == TN_OK && i < p->marks.count; i++)
+    for (size_t i = 0; i < p->marks.count; i++)
         mark(dxf, &p->marks.items[i]);
-    free(lines);
-    return status;
 }
 
 /* ---- the file */
@@ -181,6 +168,7 @@ tn_status tn_house_write_dxf(const tn_house *house, const tn_solids *solids, con
                              FILE *out, tn_error *error)
 {
     tn_dxf dxf = {.out = out};
+    const tn_mark_style style = {.lettering = LETTERING_NM, .us = tn_house_length_style(house) == TN_STYLE_FEET};
     double at = 0;
     tn_status status = TN_OK;
     tn_dxf_begin(out, layers, LAYER_COUNT, width_of(house, count), HEIGHT_MM);
@@ -189,12 +177,14 @@ tn_status tn_house_write_dxf(const tn_house *house, const tn_solids *solids, con
         double low[2], high[2];
         status = tn_house_projection_take(house, solids, &aspects[i], NULL, &p, error);
         if (status == TN_OK)
-            status = tn_house_projection_mark(house, LETTERING_NM, &p, error);
+            status = tn_house_projection_mark(house, &style, &p, error);
+        if (status == TN_OK)
+            status = tn_lines_merge(p.lines, &p.line_count, true, error);
         if (status == TN_OK) {
             tn_house_projection_extent(&p, low, high);
             dxf.du = at - low[0];
             dxf.dv = -p.low[1];
-            status = write_projection(&dxf, &p, error);
+            write_projection(&dxf, &p);
             text(&dxf, LAYER_TITLE, (low[0] + high[0]) / 2, low[1] - 3 * LETTERING_NM, 1.4 * LETTERING_NM, false,
                  p.title);
             at += high[0] - low[0] + GAP_NM;

@@ -13,18 +13,20 @@
 #define INTO_NM 1000.0                  /* less than one sees */
 
 const uint32_t tn_solid_groups[TN_SOLID_COUNT] = {
-    [TN_SOLID_OUTSIDE] = TN_GROUP_WALL, [TN_SOLID_PARTY] = TN_GROUP_WALL,   [TN_SOLID_PARTITION] = TN_GROUP_WALL,
-    [TN_SOLID_POST] = TN_GROUP_WALL,    [TN_SOLID_DECK] = TN_GROUP_FLOOR,   [TN_SOLID_ROOFDECK] = TN_GROUP_FLOOR,
-    [TN_SOLID_ITEM] = TN_GROUP_ITEM,    [TN_SOLID_ROOF] = TN_GROUP_ROOF,    [TN_SOLID_PANE] = TN_GROUP_PANE,
-    [TN_SOLID_LEAF] = TN_GROUP_LEAF,    [TN_SOLID_FLIGHT] = TN_GROUP_FLOOR,
-    [TN_SOLID_GUARD] = TN_GROUP_GUARD,  [TN_SOLID_GABLE] = TN_GROUP_WALL,
+    [TN_SOLID_OUTSIDE] = TN_GROUP_WALL, [TN_SOLID_PARTY] = TN_GROUP_WALL,    [TN_SOLID_PARTITION] = TN_GROUP_WALL,
+    [TN_SOLID_POST] = TN_GROUP_WALL,    [TN_SOLID_DECK] = TN_GROUP_FLOOR,    [TN_SOLID_ROOFDECK] = TN_GROUP_FLOOR,
+    [TN_SOLID_ITEM] = TN_GROUP_ITEM,    [TN_SOLID_ROOF] = TN_GROUP_ROOF,     [TN_SOLID_PANE] = TN_GROUP_PANE,
+    [TN_SOLID_LEAF] = TN_GROUP_LEAF,    [TN_SOLID_FLIGHT] = TN_GROUP_FLIGHT, [TN_SOLID_GUARD] = TN_GROUP_GUARD,
+    [TN_SOLID_GABLE] = TN_GROUP_WALL,
 };
 
 void tn_house_projection_clear(tn_house_projection *projection)
 {
     tn_mesh_clear(&projection->mesh);
+    free(projection->lines);
     free(projection->cuts);
     free(projection->layers);
+    free(projection->joints);
     tn_marks_clear(&projection->marks);
     *projection = (tn_house_projection){0};
 }
@@ -37,7 +39,7 @@ bool tn_house_has_storey(const tn_house *house, uint32_t storey)
     return false;
 }
 
-/* Looking level at a side, or straight down with x to the right. */
+/* Looking level at a side, or straight down with the front below. */
 static tn_camera camera_of(const tn_aspect *aspect)
 {
     static const double sides[] = {[TN_HOUSE_ANY_SIDE] = 0,
@@ -48,11 +50,11 @@ static tn_camera camera_of(const tn_aspect *aspect)
     double width = tn_camera_default().width;
     switch (aspect->kind) {
     case TN_ASPECT_PLAN:
-        return (tn_camera){-90, 90, width};
+        return (tn_camera){90, 90, width};
     case TN_ASPECT_SECTION_X:
         return (tn_camera){0, 0, width};
     case TN_ASPECT_SECTION_Y:
-        return (tn_camera){-90, 0, width};
+        return (tn_camera){90, 0, width};
     case TN_ASPECT_ELEVATION:
         return (tn_camera){sides[aspect->side], 0, width};
     default:
@@ -178,13 +180,21 @@ static tn_status cut(const tn_house *house, const tn_aspect *aspect, tn_blocks *
         return tn_blocks_cut(blocks, 0, *at, false, error);
     case TN_ASPECT_SECTION_Y:
         *axis = 1;
-        *at = off_joints(blocks, 1, (double)aspect->at, INTO_NM);
-        return tn_blocks_cut(blocks, 1, *at, true, error);
+        *at = off_joints(blocks, 1, (double)aspect->at, -INTO_NM);
+        return tn_blocks_cut(blocks, 1, *at, false, error);
     default:
         if (aspect->storeys && aspect->storeys <= house->form->record->storey_count)
             drop_above(house, blocks, aspect->storeys);
         return TN_OK;
     }
+}
+
+const tn_cut_layer *tn_joint_layer(const tn_house_projection *projection, const tn_drawn_line *joint)
+{
+    const tn_cut_layer *layer = projection->layers;
+    while (layer->layer != joint->group)
+        layer++;
+    return layer;
 }
 
 static void measure(tn_house_projection *projection)
@@ -233,7 +243,7 @@ static bool misses(const tn_house *house, const tn_aspect *aspect, const tn_bloc
     return (aspect->kind == TN_ASPECT_SECTION_X || aspect->kind == TN_ASPECT_SECTION_Y) && blocks->cut_count == 0;
 }
 
-tn_status tn_house_projection_mark(const tn_house *house, double lettering, tn_house_projection *projection,
+tn_status tn_house_projection_mark(const tn_house *house, const tn_mark_style *style, tn_house_projection *projection,
                                    tn_error *error)
 {
     tn_marks_clear(&projection->marks);
@@ -241,9 +251,10 @@ tn_status tn_house_projection_mark(const tn_house *house, double lettering, tn_h
     case TN_ASPECT_AXONOMETRIC:
         return TN_OK;
     case TN_ASPECT_PLAN:
-        return tn_marks_plan(house, projection->aspect.storey, lettering, &projection->marks, error);
+        return tn_marks_plan(house, projection->aspect.storey, style, &projection->marks, error);
     default:
-        return tn_marks_levels(house, projection->low, projection->high, lettering, &projection->marks, error);
+        return tn_marks_levels(house, projection->low, projection->high, projection->aspect.kind != TN_ASPECT_ELEVATION,
+                               style, &projection->marks, error);
     }
 }
 
@@ -269,16 +280,46 @@ void tn_house_projection_extent(const tn_house_projection *projection, double lo
     }
 }
 
+/* What was cut, as the camera sees it: from the front and from above it sees x to the left, from above y downwards. */
+static void turn_cuts(tn_house_projection *p)
+{
+    bool turn[2] = {p->aspect.kind == TN_ASPECT_PLAN || p->aspect.kind == TN_ASPECT_SECTION_Y,
+                    p->aspect.kind == TN_ASPECT_PLAN};
+    for (int k = 0; k < 2; k++) {
+        for (size_t i = 0; turn[k] && i < p->cut_count; i++)
+            for (int corner = 0; corner < 4; corner++)
+                p->cuts[i].at[corner][k] = -p->cuts[i].at[corner][k];
+        for (size_t i = 0; turn[k] && i < p->layer_count; i++) {
+            tn_cut_layer *layer = &p->layers[i];
+            for (int corner = 0; corner < 4; corner++)
+                layer->at[corner][k] = -layer->at[corner][k];
+        }
+        for (size_t i = 0; turn[k] && i < p->joint_count; i++)
+            for (int end = 0; end < 2; end++)
+                p->joints[i].at[end][k] = -p->joints[i].at[end][k];
+    }
+}
+
 static uint32_t group_of(const tn_house *house, const tn_grouping *grouping, const tn_house_block *block)
 {
-    uint32_t own = grouping ? grouping->group(house, block) : UINT32_MAX;
-    return own == UINT32_MAX ? tn_solid_groups[block->kind] : own;
+    uint32_t own = grouping ? grouping->group(house, block) : 0;
+    return tn_solid_groups[block->kind] + TN_GROUP_COUNT * own;
 }
 
 static void group_blocks(const tn_house *house, const tn_grouping *grouping, tn_blocks *blocks)
 {
     for (size_t i = 0; i < blocks->count; i++)
         blocks->items[i].group = group_of(house, grouping, &blocks->items[i]);
+}
+
+/* Walls, floors and roofs weigh; what stands in them or is climbed is thin, and so is all that is seen in space. */
+static tn_line_weight weight_of(const void *context, uint32_t group, bool is_cut)
+{
+    const tn_aspect *aspect = context;
+    uint32_t kind = group % TN_GROUP_COUNT;
+    bool heavy = kind == TN_GROUP_WALL || kind == TN_GROUP_FLOOR || kind == TN_GROUP_ROOF ||
+                 (kind == TN_GROUP_FLIGHT && is_cut && aspect->kind != TN_ASPECT_PLAN);
+    return !heavy || aspect->kind == TN_ASPECT_AXONOMETRIC ? TN_STROKE_THIN : is_cut ? TN_STROKE_CUT : TN_STROKE_SEEN;
 }
 
 tn_status tn_house_projection_take(const tn_house *house, const tn_solids *solids, const tn_aspect *aspect,
@@ -296,8 +337,13 @@ tn_status tn_house_projection_take(const tn_house *house, const tn_solids *solid
         status = missed(house, aspect, projection, error);
     if (status == TN_OK) {
         group_blocks(house, grouping, &blocks);
-        status = tn_blocks_mesh(&blocks, TN_GROUP_COUNT + (grouping ? grouping->more : 0), &projection->mesh, error);
+        status =
+            tn_blocks_mesh(&blocks, TN_GROUP_COUNT * (1 + (grouping ? grouping->more : 0)), &projection->mesh, error);
     }
+    if (status == TN_OK)
+        status =
+            tn_house_lines(&projection->mesh, &projection->camera, axis >= 0, &(tn_line_weights){aspect, weight_of},
+                           &projection->lines, &projection->line_count, error);
     if (status == TN_OK && axis >= 0)
         status = tn_cut_layers(house, solids, axis, at, projection, error);
     drop_item_cuts(&blocks, aspect->kind == TN_ASPECT_PLAN);
@@ -305,6 +351,7 @@ tn_status tn_house_projection_take(const tn_house *house, const tn_solids *solid
         projection->cuts = blocks.cuts;
         projection->cut_count = blocks.cut_count;
         blocks.cuts = NULL;
+        turn_cuts(projection);
         measure(projection);
     }
     tn_blocks_clear(&blocks);

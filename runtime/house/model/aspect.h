@@ -7,6 +7,7 @@
 #define TARTAN_HOUSE_ASPECT_H
 
 #include "runtime/geometry/render.h"
+#include "runtime/house/model/lines.h"
 #include "runtime/house/model/marks.h"
 #include "runtime/house/model/model.h"
 
@@ -19,15 +20,16 @@ typedef enum tn_material_group {
     TN_GROUP_PANE,
     TN_GROUP_LEAF,
     TN_GROUP_GUARD,
+    TN_GROUP_FLIGHT,
     TN_GROUP_COUNT
 } tn_material_group;
 
 extern const uint32_t tn_solid_groups[TN_SOLID_COUNT];
 
 typedef enum tn_aspect_kind {
-    TN_ASPECT_PLAN,      /* cut 4' above the floor of a storey, or in the middle of a lower one */
+    TN_ASPECT_PLAN,      /* cut 4' above the floor of a storey, or in the middle of a lower one; the front is below */
     TN_ASPECT_SECTION_X, /* what lies left of x = at, seen from the right */
-    TN_ASPECT_SECTION_Y, /* what lies before y = at, seen from the back */
+    TN_ASPECT_SECTION_Y, /* what lies behind y = at, seen from the front */
     TN_ASPECT_ELEVATION,
     TN_ASPECT_AXONOMETRIC
 } tn_aspect_kind;
@@ -61,18 +63,21 @@ typedef struct tn_cut_layer {
 typedef struct tn_house_projection {
     tn_aspect aspect;
     tn_camera camera;
-    tn_mesh mesh;      /* nanometres, groups as in tn_material_group, then those of the tn_grouping */
+    tn_mesh mesh;         /* nanometres; a group is a tn_material_group and TN_GROUP_COUNT times its tn_grouping */
+    tn_drawn_line *lines; /* edges that are seen, in pieces */
+    size_t line_count;
     tn_cut_face *cuts; /* u, v as the camera sees them */
     size_t cut_count;
     tn_cut_layer *layers; /* u, v likewise */
     size_t layer_count, layer_room;
+    tn_drawn_line *joints; /* where a layer that was cut meets the one before it; their groups are numbers of layers */
+    size_t joint_count;
     double low[2], high[2]; /* of all of it, without marks */
     tn_marks marks;
     char title[64];
 } tn_house_projection;
 
-/* Puts blocks into groups of its own, TN_GROUP_COUNT and the next: `more` of them. Others keep the group of their kind:
- * UINT32_MAX. */
+/* Puts blocks of a kind into groups from 1 to `more`; into 0 if they are none of these. */
 typedef struct tn_grouping {
     uint32_t (*group)(const tn_house *house, const tn_house_block *block);
     uint32_t more;
@@ -87,9 +92,12 @@ tn_status tn_house_projection_take(const tn_house *house, const tn_solids *solid
 tn_status tn_cut_layers(const tn_house *house, const tn_solids *solids, int axis, double at,
                         tn_house_projection *projection, tn_error *error);
 
-/* Makes the marks anew, with lettering so high in nanometres of the house. */
-tn_status tn_house_projection_mark(const tn_house *house, double lettering, tn_house_projection *projection,
+/* Makes the marks anew. */
+tn_status tn_house_projection_mark(const tn_house *house, const tn_mark_style *style, tn_house_projection *projection,
                                    tn_error *error);
+
+/* One of the layers that a joint is of. */
+const tn_cut_layer *tn_joint_layer(const tn_house_projection *projection, const tn_drawn_line *joint);
 
 /* What the drawing takes with its marks. */
 void tn_house_projection_extent(const tn_house_projection *projection, double low[2], double high[2]);

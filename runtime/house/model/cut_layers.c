@@ -2,6 +2,7 @@
 #include "runtime/house/model/aspect.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "runtime/base/array.h"
 
@@ -150,6 +151,24 @@ static tn_status cut_prisms(const tn_layer_cutting *c, tn_error *error)
     return status;
 }
 
+/* Makes one line of the joints of layers of a number that lie in one. */
+static tn_status join_layers(tn_house_projection *p, tn_error *error)
+{
+    p->joints = malloc((p->layer_count + 1) * sizeof *p->joints);
+    if (!p->joints)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < p->layer_count; i++) {
+        const tn_cut_layer *layer = &p->layers[i];
+        tn_drawn_line joint = {.weight = TN_STROKE_THIN, .group = layer->layer, .cut = true};
+        for (int end = 0; end < 2; end++)
+            for (int k = 0; k < 2; k++)
+                joint.at[end][k] = layer->line[end][k];
+        if (layer->meets)
+            p->joints[p->joint_count++] = joint;
+    }
+    return tn_lines_merge(p->joints, &p->joint_count, true, error);
+}
+
 tn_status tn_cut_layers(const tn_house *house, const tn_solids *solids, int axis, double at,
                         tn_house_projection *projection, tn_error *error)
 {
@@ -162,5 +181,7 @@ tn_status tn_cut_layers(const tn_house *house, const tn_solids *solids, int axis
     if (house->form->record->layer_count == 0)
         return TN_OK;
     tn_status status = cut_boxes(&c, error);
-    return status == TN_OK ? cut_prisms(&c, error) : status;
+    if (status == TN_OK)
+        status = cut_prisms(&c, error);
+    return status == TN_OK ? join_layers(projection, error) : status;
 }

@@ -1,6 +1,8 @@
-/* Keeps marks of drawings; draws dimensions and levels. */
+/* Keeps marks of drawings; writes lengths; draws chains of dimensions, and levels. */
 #include "runtime/house/model/marks.h"
 
+#include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -41,6 +43,22 @@ void tn_marks_text(tn_marks *marks, tn_mark_layer layer, double u, double v, dou
     add(marks, mark);
 }
 
+void tn_marks_circle(tn_marks *marks, tn_mark_layer layer, double u, double v, double radius)
+{
+    add(marks, (tn_mark){TN_MARK_CIRCLE, layer, u, v, u + radius, v, .high = 0});
+}
+
+void tn_marks_turn(tn_marks *marks)
+{
+    for (size_t i = 0; i < marks->count; i++) {
+        tn_mark *m = &marks->items[i];
+        m->u0 = -m->u0;
+        m->v0 = -m->v0;
+        m->u1 = -m->u1;
+        m->v1 = -m->v1;
+    }
+}
+
 double tn_mark_width(const char *text)
 {
     unsigned columns = 0;
@@ -49,76 +67,168 @@ double tn_mark_width(const char *text)
     return 0.62 * columns; /* letters and digits of a sans serif, on the mean, with a little room */
 }
 
-void tn_marks_dimension(tn_marks *marks, const tn_house *house, double from, double to, double at, bool upright,
-                        double lettering)
+/* ---- lengths */
+
+/* Feet, inches and 64ths, as drawings have them: 5'-6 1/2". */
+static void write_feet(double nanometres, char text[32])
 {
-    char text[64];
-    double tick = lettering * 0.4, middle = (from + to) / 2, room = to - from;
-    tn_length_write_style((int64_t)(room + 0.5), tn_house_length_style(house), text, sizeof text);
-    if (upright) {
-        tn_marks_line(marks, TN_MARK_DIMENSION, at, from, at, to);
-        tn_marks_line(marks, TN_MARK_DIMENSION, at - tick, from - tick, at + tick, from + tick);
-        tn_marks_line(marks, TN_MARK_DIMENSION, at - tick, to - tick, at + tick, to + tick);
-    } else {
-        tn_marks_line(marks, TN_MARK_DIMENSION, from, at, to, at);
-        tn_marks_line(marks, TN_MARK_DIMENSION, from - tick, at - tick, from + tick, at + tick);
-        tn_marks_line(marks, TN_MARK_DIMENSION, to - tick, at - tick, to + tick, at + tick);
+    int64_t parts = (int64_t)floor(nanometres / ((double)TN_INCH_NM / 64) + 0.5), inches = parts / 64;
+    unsigned top = (unsigned)(parts % 64), bottom = 64;
+    for (; top > 0 && top % 2 == 0; top /= 2)
+        bottom /= 2;
+    int used = snprintf(text, 32, "%" PRId64 "'-%" PRId64, inches / 12, inches % 12);
+    snprintf(text + used, 32 - (size_t)used, top ? " %u/%u\"" : "\"", top, bottom);
+}
+
+void tn_mark_length(const tn_house *house, bool us, double nanometres, char text[32])
+{
+    int64_t millimetres = (int64_t)floor(nanometres / 1e6 + 0.5);
+    if (us)
+        write_feet(nanometres, text);
+    else if (tn_house_length_style(house) == TN_STYLE_MILLIMETRES)
+        snprintf(text, 32, "%" PRId64, millimetres);
+    else if (millimetres % 10 == 0)
+        snprintf(text, 32, "%" PRId64 ".%02d", millimetres / 1000, (int)(millimetres % 1000 / 10));
+    else
+        snprintf(text, 32, "%" PRId64 ".%03d", millimetres / 1000, (int)(millimetres % 1000));
+}
+
+void tn_mark_area(bool us, double square_nanometres, char text[32])
+{
+    if (us)
+        snprintf(text, 32, "%.0f sf", square_nanometres / ((double)TN_FOOT_NM * (double)TN_FOOT_NM));
+    else
+        snprintf(text, 32, "%.1f m\xc2\xb2", square_nanometres / 1e18);
+}
+
+/* ---- chains of dimensions */
+
+static int by_place(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+/* A point of a chain: along it, and aside from it, upwards or (upright) to the right. */
+static void put_stroke(tn_marks *marks, bool upright, const double from[2], const double to[2])
+{
+    tn_marks_line(marks, TN_MARK_DIMENSION, from[upright], from[!upright], to[upright], to[!upright]);
+}
+
+/* Where what is written on either side of a chain ends so far. */
+typedef struct chain_text {
+    double end[2];
+} chain_text;
+
+/* What a dimension says: above the line if it has room there, or else below it. */
+static void put_length(tn_marks *marks, const tn_house *house, double from, double to, double at, bool upright,
+                       const tn_mark_style *style, chain_text *so_far)
+{
+    char text[32];
+    tn_mark_length(house, style->us, to - from, text);
+    double half = tn_mark_width(text) * style->lettering / 2, middle = (from + to) / 2;
+    for (int below = 2 * half > to - from; below < 2; below++) {
+        double aside = below ? -0.75 * style->lettering : 0.75 * style->lettering,
+               v = upright ? at - aside : at + aside;
+        if (middle - half < so_far->end[below])
+            continue;
+        tn_marks_text(marks, TN_MARK_DIMENSION, upright ? v : middle, upright ? middle : v, style->lettering, upright,
+                      text);
+        so_far->end[below] = middle + half;
+        return;
     }
-    double high = lettering, wide = tn_mark_width(text) * lettering;
-    if (wide > room)
-        high *= room / wide;
-    if (high < 0.4 * lettering)
-        return; /* nobody could read it */
-    tn_marks_text(marks, TN_MARK_DIMENSION, upright ? at - 0.8 * lettering : middle,
-                  upright ? middle : at + 0.8 * lettering, high, upright, text);
+}
+
+void tn_marks_chain(tn_marks *marks, const tn_house *house, double *places, size_t count, double at, bool upright,
+                    const tn_mark_style *style)
+{
+    size_t stops = 0;
+    double tick = style->lettering * 0.4;
+    chain_text so_far = {{-INFINITY, -INFINITY}};
+    qsort(places, count, sizeof *places, by_place);
+    for (size_t i = 0; i < count; i++)
+        if (stops == 0 || places[i] > places[stops - 1])
+            places[stops++] = places[i];
+    if (stops < 2)
+        return;
+    put_stroke(marks, upright, (double[]){places[0], at}, (double[]){places[stops - 1], at});
+    for (size_t i = 0; i < stops; i++) {
+        put_stroke(marks, upright, (double[]){places[i] - tick, at - tick}, (double[]){places[i] + tick, at + tick});
+        put_stroke(marks, upright, (double[]){places[i], at - 2 * tick}, (double[]){places[i], at + 2 * tick});
+    }
+    for (size_t i = 1; i < stops; i++)
+        put_length(marks, house, places[i - 1], places[i], at, upright, style, &so_far);
 }
 
 /* ---- levels */
 
 /* Heights of roofs are fractions: they are written to the nearest 1/8" or millimetre, as one would build them. */
-static int64_t rounded(const tn_house *house, double v)
+static double rounded(bool us, double v)
 {
-    int64_t step = tn_house_length_style(house) == TN_STYLE_FEET ? TN_INCH_NM / 8 : 1000000;
-    return (int64_t)(v / (double)step + 0.5) * step;
+    double step = us ? (double)TN_INCH_NM / 8 : 1e6;
+    return floor(v / step + 0.5) * step;
 }
 
-/* A height, and what is written of it. */
-typedef struct tn_level {
-    double v;
-    int64_t said;
-    const char *name;
-} tn_level;
-
-static void put_level(tn_marks *marks, const tn_house *house, double u, double lettering, const tn_level *level)
+/* A height above the lowest floor with the name of what is there, over a line with a triangle that points to it. */
+static void put_level(tn_marks *marks, const tn_house *house, double u, double v, const char *name,
+                      const tn_mark_style *style)
 {
-    char text[sizeof marks->items->text], name[31], length[64];
-    tn_length_write_style(level->said, tn_house_length_style(house), length, sizeof length);
-    tn_utf8_copy(level->name, sizeof name, name);
-    snprintf(text, sizeof text, "%s%s%.15s", name, name[0] ? " " : "", length);
+    char text[sizeof marks->items->text], shown[24], length[32];
+    double lettering = style->lettering, said = rounded(style->us, v), tip = 0.45 * lettering;
+    tn_mark_length(house, style->us, fabs(said), length);
+    tn_utf8_copy(name, sizeof shown, shown);
+    snprintf(text, sizeof text, "%s%s%s%s", shown, shown[0] ? " " : "",
+             style->us  ? ""
+             : said > 0 ? "+"
+             : said < 0 ? "-"
+                        : "\xc2\xb1",
+             length);
     double wide = tn_mark_width(text) * lettering;
-    tn_marks_line(marks, TN_MARK_DIMENSION, u - wide - lettering, level->v, u, level->v);
-    tn_marks_text(marks, TN_MARK_DIMENSION, u - lettering - wide / 2, level->v + 0.7 * lettering, lettering, false,
+    tn_marks_line(marks, TN_MARK_DIMENSION, u - wide - 2 * lettering, v, u, v);
+    tn_marks_line(marks, TN_MARK_DIMENSION, u - 2 * tip, v + tip, u - tip, v);
+    tn_marks_line(marks, TN_MARK_DIMENSION, u - tip, v, u, v + tip);
+    tn_marks_line(marks, TN_MARK_DIMENSION, u - 2 * tip, v + tip, u, v + tip);
+    tn_marks_text(marks, TN_MARK_DIMENSION, u - 1.5 * lettering - wide / 2, v + 0.75 * lettering, lettering, false,
                   text);
 }
 
-tn_status tn_marks_levels(const tn_house *house, const double low[2], const double high[2], double lettering,
-                          tn_marks *marks, tn_error *error)
+/* Of each storey its floor and its ceiling, at the right of what is cut. */
+static void put_heights(const tn_house *house, double u, double top, const tn_mark_style *style, tn_marks *marks)
+{
+    double places[2 * TN_STOREYS_MAX + 2];
+    size_t count = 0;
+    for (uint32_t k = 0; k < house->form->record->storey_count; k++) {
+        double floor_at = (double)house->form->level[k], ceiling = floor_at + (double)tn_form_clear(house->form, k);
+        if (ceiling > top)
+            break;
+        places[count++] = floor_at;
+        places[count++] = ceiling;
+    }
+    places[count++] = top;
+    tn_marks_chain(marks, house, places, count, u, true, style);
+}
+
+tn_status tn_marks_levels(const tn_house *house, const double low[2], const double high[2], bool cut,
+                          const tn_mark_style *style, tn_marks *marks, tn_error *error)
 {
     const tn_house_form *form = house->form;
-    double ground = -(double)form->record->deck, u = low[0] - lettering, beyond = 3 * lettering;
+    double lettering = style->lettering, ground = -(double)form->record->deck, u = low[0] - lettering,
+           beyond = 3 * lettering;
     tn_marks_line(marks, TN_MARK_GROUND, low[0] - beyond, ground, high[0] + beyond, ground);
     double last = -1e30;
     for (uint32_t k = 0; k <= form->record->storey_count; k++) {
         bool top = k == form->record->storey_count;
-        tn_level level = {
-            (double)form->level[k], form->level[k],
-            top ? "" : tn_text(form->module, form->module->STOREY_records[form->record->storey_first + k].name)};
-        if (level.v > high[1] || level.v - last < 1.6 * lettering)
+        double v = (double)form->level[k];
+        if (v > high[1] || v - last < 1.6 * lettering)
             continue;
-        put_level(marks, house, u, lettering, &level);
-        last = level.v;
+        put_level(marks, house, u, v,
+                  top ? "" : tn_text(form->module, form->module->STOREY_records[form->record->storey_first + k].name),
+                  style);
+        last = v;
     }
     if (high[1] - last >= 1.6 * lettering)
-        put_level(marks, house, u, lettering, &(tn_level){high[1], rounded(house, high[1]), "top"});
+        put_level(marks, house, u, high[1], "top", style);
+    if (cut)
+        put_heights(house, high[0] + 3 * lettering, high[1], style, marks);
     return marks->failed ? tn_fail_memory(error) : TN_OK;
 }

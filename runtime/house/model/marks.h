@@ -15,13 +15,16 @@ typedef enum tn_mark_layer {
     TN_MARK_GROUND,
     TN_MARK_DIMENSION,
     TN_MARK_NAME,
+    TN_MARK_TAG,     /* of doors and windows */
+    TN_MARK_SECTION, /* where the house is cut */
     TN_MARK_LAYERS
 } tn_mark_layer;
 
 typedef enum tn_mark_kind {
-    TN_MARK_LINE, /* from (u0, v0) to (u1, v1) */
-    TN_MARK_ARC,  /* a quarter about (u0, v0), counter-clockwise from (u1, v1) */
-    TN_MARK_TEXT, /* in the middle of (u0, v0), so high; upright: read from the right */
+    TN_MARK_LINE,   /* from (u0, v0) to (u1, v1) */
+    TN_MARK_ARC,    /* a quarter about (u0, v0), counter-clockwise from (u1, v1) */
+    TN_MARK_TEXT,   /* in the middle of (u0, v0), so high; upright: read from the right */
+    TN_MARK_CIRCLE, /* about (u0, v0), through (u1, v1) */
 } tn_mark_kind;
 
 typedef struct tn_mark {
@@ -41,22 +44,55 @@ typedef struct tn_marks {
 
 void tn_marks_clear(tn_marks *marks);
 
+/* A place where the house is cut: at x or at y. letter: by which the section is called. */
+typedef struct tn_section_place {
+    bool across_x;
+    int64_t at;
+    char letter;
+} tn_section_place;
+
+/* How the marks of a drawing are written. lettering: the size of what is written, whose capitals are 2.5 mm high on
+ * paper. us: lengths in feet and inches, areas in square feet, rooms numbered from 101; otherwise in metres, or in
+ * millimetres if the form's author writes these, in square metres, and from 0.01. coarse: the scale is too small for tags, and
+ * for dimensions of openings. sections: what is shown in plans. */
+typedef struct tn_mark_style {
+    double lettering;
+    bool us, coarse;
+    const tn_section_place *sections;
+    size_t section_count;
+} tn_mark_style;
+
+/* Writes a length as drawings have it: 5'-6 1/2" to the nearest 64th, 1.65 to the nearest millimetre, or 1650. A text
+ * of 32 holds any. */
+void tn_mark_length(const tn_house *house, bool us, double nanometres, char text[32]);
+
 /* About how wide a line of lettering is, in its height. */
 double tn_mark_width(const char *text);
 
-/* A dimension between two places at `at` across: along u at that v, or, upright, along v at that u. */
-void tn_marks_dimension(tn_marks *marks, const tn_house *house, double from, double to, double at, bool upright,
-                        double lettering);
+/* The same of an area, in square feet or square metres: 86 sf, 7.9 m and a raised 2. */
+void tn_mark_area(bool us, double square_nanometres, char text[32]);
+
+/* Dimensions between one place and the next in a chain: along u at v = at, or, upright, along v at u = at. The places
+ * are sorted, and those that are the same are one. What has no room between its ends is written below the chain. */
+void tn_marks_chain(tn_marks *marks, const tn_house *house, double *places, size_t count, double at, bool upright,
+                    const tn_mark_style *style);
 void tn_marks_line(tn_marks *marks, tn_mark_layer layer, double u0, double v0, double u1, double v1);
 void tn_marks_arc(tn_marks *marks, tn_mark_layer layer, double u0, double v0, double u1, double v1); /* a quarter */
 void tn_marks_text(tn_marks *marks, tn_mark_layer layer, double u, double v, double high, bool upright,
                    const char *text);
 
-/* Those of the plan of a storey, with lettering so high. TN_MEMORY. */
-tn_status tn_marks_plan(const tn_house *house, uint32_t storey, double lettering, tn_marks *marks, tn_error *error);
+void tn_marks_circle(tn_marks *marks, tn_mark_layer layer, double u, double v, double radius);
 
-/* Those of what is seen from the side: the ground and the levels, left of what lies between low and high. TN_MEMORY. */
-tn_status tn_marks_levels(const tn_house *house, const double low[2], const double high[2], double lettering,
-                          tn_marks *marks, tn_error *error);
+/* Turns all marks by half about the origin, but for what is written. */
+void tn_marks_turn(tn_marks *marks);
+
+/* Those of the plan of a storey, whose front is below: u is -x, v is -y. TN_MEMORY. */
+tn_status tn_marks_plan(const tn_house *house, uint32_t storey, const tn_mark_style *style, tn_marks *marks,
+                        tn_error *error);
+
+/* Those of what is seen from the side: the ground and the levels, left of what lies between low and high; at its right
+ * the heights of rooms if it is cut. TN_MEMORY. */
+tn_status tn_marks_levels(const tn_house *house, const double low[2], const double high[2], bool cut,
+                          const tn_mark_style *style, tn_marks *marks, tn_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-/* Letters the rooms of a plan: the name of each and its area, where no furniture is below and no door swings. */
+/* Letters the rooms of a plan: name, number and net area of each, where no furniture is below and no door swings. */
 #include "runtime/house/model/marks_names.h"
 
 #include <math.h>
@@ -8,174 +8,179 @@
 #include "runtime/base/length.h"
 #include "runtime/base/utf8.h"
 
-#define SQUARE_FOOT_NM2 ((double)TN_FOOT_NM * (double)TN_FOOT_NM)
+#define LEADING 1.3 /* from line to line, in the size of the lettering */
 
-/* Words with blanks between them: what the room is for or, as long as that is not known, its zone. */
-static void write_name(const tn_house *house, const tn_cell *cell, char *text, size_t size)
-{
-    const tn_schema *schema = house->form->schema;
-    const char *name = cell->function == TN_NO_FUNCTION
-                           ? tn_text(schema->module, schema->fields[cell->zone].name)
-                           : tn_text(house->form->module, tn_form_rule(house->form, cell->function)->name);
-    tn_utf8_copy(name, size, text);
-    for (char *c = text; *c; c++)
-        *c = (char)(*c == '-' || *c == '_' ? ' ' : *c);
-}
+enum {
+    PLACES = 12, /* on either side of the middle, along and across */
+    LINES_MOST = 3
+};
 
-static void write_area(const tn_house *house, double area, char *text, size_t size)
-{
-    const tn_schema *schema = house->form->schema;
-    const char *spelt = tn_text(schema->module, schema->values[schema->value_start[house->form->width]].name);
-    if (tn_length_style_of(spelt) == TN_STYLE_FEET)
-        snprintf(text, size, "%.0f sf", area / SQUARE_FOOT_NM2);
-    else
-        snprintf(text, size, "%.1f m2", area / 1e18);
-}
+/* What is written in a room, and how wide and high that is in nanometres. */
+typedef struct tn_name_lines {
+    const char *lines[LINES_MOST];
+    size_t count;
+    double wide, high;
+} tn_name_lines;
 
-/* The area of a room in a storey, and the cell of it that is largest there. */
-static double room_area(const tn_house *house, const uint32_t *rooms, uint32_t room, uint32_t storey, uint32_t *largest)
-{
-    double area = 0, most = -1;
-    for (uint32_t i = room; i < house->cell_count; i++) {
-        const tn_cell *cell = &house->cells[i];
-        if (rooms[i] != room || cell->storey != storey || cell->open)
-            continue;
-        double a = (double)tn_cell_area(cell);
-        area += a;
-        *largest = a > most ? i : *largest;
-        most = fmax(most, a);
-    }
-    return area;
-}
-
-/* How much the lettering has to shrink to fit into a space; 1: not at all. */
-static double shrink_to(double wide, double high, double room_wide, double room_high)
-{
-    return fmin(1, fmin(room_wide / wide, room_high / high));
-}
-
-/* Where a name stands, and how much of what is taken is below it. letter: how high it is. alone: without the area. */
+/* Where it stands, and which share of it covers something else. */
 typedef struct tn_name_place {
-    double x, y, letter, covered;
-    bool upright, alone;
+    double x, y, covered;
+    bool upright;
 } tn_name_place;
 
+/* What is in a room: within the rectangle of a cell, in the drawing. */
 typedef struct tn_naming {
     const tn_house *house;
     const tn_taken *taken;
     double lettering;
-    char name[48], size[32];
+    tn_rectangle *near; /* owned; has room for all that is taken */
+    size_t near_count;
+    tn_rectangle cell;
 } tn_naming;
 
 static double overlap(double low, double high, double from, double to)
 {
-    return fmax(fmin(high, to) - fmax(low, from), 0);
+    double a = low > from ? low : from, b = high < to ? high : to;
+    return b > a ? b - a : 0;
 }
 
-static double covered_of(const tn_rectangles *taken, double x, double y, double half_wide, double half_high)
+static double covered_of(const tn_naming *n, double x, double y, double half_wide, double half_high)
 {
     double covered = 0;
-    for (size_t i = 0; i < taken->count; i++) {
-        const tn_rectangle *r = &taken->items[i];
+    for (size_t i = 0; i < n->near_count; i++) {
+        const tn_rectangle *r = &n->near[i];
         covered += overlap(x - half_wide, x + half_wide, (double)r->x0, (double)r->x1) *
                    overlap(y - half_high, y + half_high, (double)r->y0, (double)r->y1);
     }
     return covered;
 }
 
-enum { PLACES = 16 }; /* on either side of the middle, along and across */
-
-/* The place in a room where least is below it, and of those the nearest to the middle. */
-static void find_place(const tn_naming *n, tn_rectangle room, double wide, double high, tn_name_place *place)
+static void gather(tn_naming *n, const tn_rectangles *from)
 {
-    double x = place->x, y = place->y, near = INFINITY;
-    double half_wide = (place->upright ? high : wide) / 2, half_high = (place->upright ? wide : high) / 2;
-    double out = fmax((double)(room.x1 - room.x0) / 2 - half_wide, 0) / PLACES,
-           up = fmax((double)(room.y1 - room.y0) / 2 - half_high, 0) / PLACES;
-    place->covered = INFINITY;
+    for (size_t i = 0; i < from->count; i++) {
+        const tn_rectangle *r = &from->items[i];
+        if (r->x0 < n->cell.x1 && r->x1 > n->cell.x0 && r->y0 < n->cell.y1 && r->y1 > n->cell.y0)
+            n->near[n->near_count++] = *r;
+    }
+}
+
+static void enter(tn_naming *n, uint32_t cell)
+{
+    n->cell = tn_turned(tn_cell_clear(n->house, cell));
+    n->near_count = 0;
+    gather(n, &n->taken->items);
+    gather(n, &n->taken->swings);
+}
+
+/* The place in the cell where least is below it, and of those the nearest to the middle; false if there is no room. */
+static bool find_place(const tn_naming *n, const tn_name_lines *lines, bool upright, tn_name_place *best)
+{
+    const tn_rectangle *r = &n->cell;
+    double x = (double)(r->x0 + r->x1) / 2, y = (double)(r->y0 + r->y1) / 2, near = INFINITY;
+    double half_wide = (upright ? lines->high : lines->wide) / 2, half_high = (upright ? lines->wide : lines->high) / 2;
+    double out = ((double)(r->x1 - r->x0) / 2 - half_wide) / PLACES,
+           up = ((double)(r->y1 - r->y0) / 2 - half_high) / PLACES;
+    best->covered = INFINITY;
+    if (out < 0 || up < 0)
+        return false;
     for (int i = -PLACES; i <= PLACES; i++)
         for (int k = -PLACES; k <= PLACES; k++) {
             double u = x + i * out, v = y + k * up, away = (u - x) * (u - x) + (v - y) * (v - y);
-            double covered = covered_of(&n->taken->items, u, v, half_wide, half_high) +
-                             covered_of(&n->taken->swings, u, v, half_wide, half_high);
-            if (covered > place->covered || (covered == place->covered && away >= near))
+            double covered = covered_of(n, u, v, half_wide, half_high) / (4 * half_wide * half_high);
+            if (covered > best->covered || (covered == best->covered && away >= near))
                 continue;
-            *place = (tn_name_place){u, v, place->letter, covered, place->upright, place->alone};
+            *best = (tn_name_place){u, v, covered, upright};
             near = away;
         }
+    return true;
 }
 
-/* The better of the best place so far and one in this cell, smaller lettering by `share`. */
-static void try_place(const tn_naming *n, uint32_t cell, bool upright, double share, tn_name_place *best)
+static void put_lines(const tn_naming *n, const tn_name_lines *lines, const tn_name_place *place, tn_marks *marks)
 {
-    tn_rectangle r = tn_cell_clear(n->house, cell);
-    double w = (double)(r.x1 - r.x0), d = (double)(r.y1 - r.y0), along = upright ? d : w, across = upright ? w : d;
-    double wide = fmax(tn_mark_width(n->name), 0.8 * tn_mark_width(n->size)) * n->lettering, high = 2.6 * n->lettering;
-    double shrunk = shrink_to(wide, high, along, across);
-    bool alone = shrunk < 0.75;
-    if (alone) { /* the name by itself needs less */
-        wide = tn_mark_width(n->name) * n->lettering;
-        high = 1.3 * n->lettering;
-        shrunk = shrink_to(wide, high, along, across);
+    for (size_t i = 0; i < lines->count; i++) {
+        double up = LEADING * n->lettering * ((double)(lines->count - 1) / 2 - (double)i);
+        tn_marks_text(marks, TN_MARK_NAME, place->upright ? place->x - up : place->x,
+                      place->upright ? place->y : place->y + up, n->lettering, place->upright, lines->lines[i]);
     }
-    double letter = n->lettering * shrunk * share, by = shrunk * share;
-    tn_name_place place = {(double)(r.x0 + r.x1) / 2, (double)(r.y0 + r.y1) / 2, letter, 0, upright, alone};
-    if (letter < 0.4 * n->lettering || letter < 0.7 * best->letter)
-        return; /* nobody could read it */
-    find_place(n, r, wide * by, high * by, &place);
-    if (place.covered < best->covered)
-        *best = place;
 }
 
-/* First as the lettering is larger; upright only where that makes much of a difference. */
-static void try_cell(const tn_naming *n, uint32_t cell, double share, tn_name_place *best)
+static void add_line(tn_name_lines *lines, const tn_naming *n, const char *line)
 {
-    tn_rectangle r = tn_cell_clear(n->house, cell);
-    double w = (double)(r.x1 - r.x0), d = (double)(r.y1 - r.y0), wide = tn_mark_width(n->name) * n->lettering;
-    bool upright = shrink_to(wide, n->lettering, d, w) > 1.2 * shrink_to(wide, n->lettering, w, d);
-    for (int turned = 0; turned < 2 && best->covered > 0; turned++)
-        try_place(n, cell, upright != (bool)turned, share, best);
+    double wide = (tn_mark_width(line) + 0.3) * n->lettering;
+    lines->lines[lines->count++] = line;
+    lines->wide = wide > lines->wide ? wide : lines->wide;
+    lines->high = LEADING * n->lettering * (double)lines->count;
 }
 
-static void put_name(const tn_naming *n, const uint32_t *rooms, uint32_t largest, tn_marks *marks)
+/* Level or upright, in the largest cell first. Better places are those that cover less. */
+static bool find_in_room(tn_naming *n, const tn_designations *names, const tn_numbered_room *room,
+                         const tn_name_lines *lines, tn_name_place *best)
 {
-    const tn_cell *cells = n->house->cells;
+    best->covered = INFINITY;
+    for (uint32_t i = 0, cell = room->largest; i <= n->house->cell_count && best->covered > 0; cell = i++) {
+        const tn_cell *c = &n->house->cells[cell];
+        if (names->rooms[cell] != room->room || c->storey != room->storey || c->open)
+            continue;
+        enter(n, cell);
+        for (int upright = 0; upright < 2; upright++) {
+            tn_name_place place;
+            if (find_place(n, lines, upright, &place) && place.covered < best->covered)
+                *best = place;
+        }
+    }
+    return best->covered < INFINITY;
+}
+
+#define COVERED_MOST 0.02 /* of what is written, so that it can be read */
+
+/* All of it; without the area; the number alone, which the schedule explains. Of these the first that covers nothing,
+ * or else the one that covers least. If there is no room for any, the number stands in the middle. */
+static void put_name(tn_naming *n, const tn_designations *names, const tn_numbered_room *room, const char *area,
+                     tn_marks *marks)
+{
+    const char *const said[] = {room->name, room->number, area};
+    static const struct {
+        size_t first, count;
+    } choices[] = {{0, 3}, {0, 2}, {1, 1}};
+    tn_name_lines best_lines = {0};
     tn_name_place best = {.covered = INFINITY};
-    for (double share = 1; share > 0.7 && best.covered > 0; share -= 0.2) {
-        try_cell(n, largest, share, &best);
-        for (uint32_t i = rooms[largest]; i < n->house->cell_count && best.covered > 0; i++)
-            if (rooms[i] == rooms[largest] && cells[i].storey == cells[largest].storey && !cells[i].open)
-                try_cell(n, i, share, &best);
+    for (size_t c = 0; c < 3 && best.covered > COVERED_MOST; c++) {
+        tn_name_lines lines = {0};
+        tn_name_place place;
+        for (size_t i = 0; i < choices[c].count; i++)
+            add_line(&lines, n, said[choices[c].first + i]);
+        bool found = find_in_room(n, names, room, &lines, &place);
+        if (!found && c + 1 == sizeof choices / sizeof *choices && best.covered == INFINITY) {
+            enter(n, room->largest);
+            place =
+                (tn_name_place){(double)(n->cell.x0 + n->cell.x1) / 2, (double)(n->cell.y0 + n->cell.y1) / 2, 0, false};
+            found = true;
+        }
+        if (found && place.covered < best.covered) {
+            best = place;
+            best_lines = lines;
+        }
     }
-    if (best.letter == 0)
-        return;
-    double up = best.alone ? 0 : 0.65 * best.letter;
-    tn_marks_text(marks, TN_MARK_NAME, best.upright ? best.x - up : best.x, best.upright ? best.y : best.y + up,
-                  best.letter, best.upright, n->name);
-    if (!best.alone)
-        tn_marks_text(marks, TN_MARK_NAME, best.upright ? best.x + up : best.x, best.upright ? best.y : best.y - up,
-                      0.8 * best.letter, best.upright, n->size);
+    put_lines(n, &best_lines, &best, marks);
 }
 
-tn_status tn_marks_names(const tn_house *house, uint32_t storey, double lettering, const tn_taken *taken,
-                         tn_marks *marks, tn_error *error)
+tn_status tn_marks_names(const tn_house *house, uint32_t storey, const tn_mark_style *style,
+                         const tn_designations *names, const tn_taken *taken, tn_marks *marks, tn_error *error)
 {
-    uint32_t *rooms;
-    tn_status status = tn_house_rooms(house, &rooms, error);
-    tn_naming naming = {.house = house, .taken = taken, .lettering = lettering};
-    if (status != TN_OK)
-        return status;
-    for (uint32_t i = 0; i < house->cell_count; i++) {
-        uint32_t largest = TN_NO_CELL;
-        if (rooms[i] != i)
+    tn_naming naming = {.house = house,
+                        .taken = taken,
+                        .lettering = style->lettering,
+                        .near = malloc((taken->items.count + taken->swings.count + 1) * sizeof *naming.near)};
+    if (!naming.near)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < names->room_count; i++) {
+        char area[32];
+        const tn_numbered_room *room = &names->numbered[i];
+        if (room->storey != storey)
             continue;
-        double area = room_area(house, rooms, i, storey, &largest);
-        if (largest == TN_NO_CELL)
-            continue;
-        write_name(house, &house->cells[largest], naming.name, sizeof naming.name);
-        write_area(house, area, naming.size, sizeof naming.size);
-        put_name(&naming, rooms, largest, marks);
+        tn_mark_area(style->us, room->net, area);
+        put_name(&naming, names, room, area, marks);
     }
-    free(rooms);
+    free(naming.near);
     return marks->failed ? tn_fail_memory(error) : TN_OK;
 }

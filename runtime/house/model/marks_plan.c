@@ -1,8 +1,9 @@
-/* Draws the marks of a plan: how doors swing, stairs, spaces that are open to below, dimensions; with them names. */
+/* Draws the marks of a plan: how doors swing, their tags and those of windows, stairs, spaces that are open to below,
+ * where sections are cut, dimensions; with them names. The front is below: all is turned by half. */
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "runtime/house/model/marks_names.h"
 #include "runtime/house/model/model.h"
@@ -28,17 +29,38 @@ static void put_stair(const tn_house *house, uint32_t cell, tn_marks *marks)
                       along_x ? my + side * tip / 2 : y1 - tip, along_x ? x1 : mx, along_x ? my : y1);
 }
 
-/* The way up a flight, and a point at its upper end. */
-static tn_status put_flight(const tn_house *house, const tn_face *face, tn_marks *marks, tn_error *error)
+/* What is said of the way up: how many risers there are, and how high and deep steps are. */
+static void put_ascent(const tn_house *house, const tn_face *face, const tn_flight *flight, const tn_mark_style *style,
+                       tn_marks *marks)
 {
-    tn_flight flight;
-    tn_status status = tn_flight_stand(house, face, &flight, error);
+    char text[sizeof marks->items->text];
+    const tn_opening_record *record = tn_form_flight(house->form, face->kind);
+    int64_t risers = tn_flight_size_in(house->form, face->storey, record).steps,
+            height = house->form->level[face->storey + 1] - house->form->level[face->storey];
+    if (style->us || risers == 0)
+        snprintf(text, sizeof text, "UP %" PRId64 "R", risers);
+    else
+        snprintf(text, sizeof text, "UP %" PRId64 " \xc3\x97 %.0f/%.0f", risers, (double)height / (double)risers / 1e6,
+                 (double)record->going / 1e6);
+    double u0 = (double)flight->path[0][0], v0 = (double)flight->path[0][1], du = (double)flight->path[1][0] - u0,
+           dv = (double)flight->path[1][1] - v0, leg = fabs(du) + fabs(dv),
+           along = (tn_mark_width(text) / 2 + 0.3) * style->lettering;
+    if (2 * along > leg)
+        snprintf(text, sizeof text, "UP");
+    along = (tn_mark_width(text) / 2 + 0.3) * style->lettering;
+    tn_marks_text(marks, TN_MARK_STAIR, u0 + du / leg * along, v0 + dv / leg * along, style->lettering,
+                  fabs(dv) > fabs(du), text);
+}
+
+/* The way up a flight from a point at its foot, with an arrow at its upper end. */
+static void put_way(const tn_flight *flight, tn_marks *marks)
+{
     double u0 = 0, v0 = 0, tip = TREAD_NM * 0.6;
-    for (size_t i = 0; i < flight.path_count; i++) {
-        double u = (double)flight.path[i][0], v = (double)flight.path[i][1], along = fabs(u - u0) + fabs(v - v0);
+    for (size_t i = 0; i < flight->path_count; i++) {
+        double u = (double)flight->path[i][0], v = (double)flight->path[i][1], along = fabs(u - u0) + fabs(v - v0);
         if (i > 0)
             tn_marks_line(marks, TN_MARK_STAIR, u0, v0, u, v);
-        if (i > 0 && i + 1 == flight.path_count) {
+        if (i > 0 && i + 1 == flight->path_count) {
             double du = (u - u0) / along * tip, dv = (v - v0) / along * tip;
             tn_marks_line(marks, TN_MARK_STAIR, u - du - dv / 2, v - dv + du / 2, u, v);
             tn_marks_line(marks, TN_MARK_STAIR, u - du + dv / 2, v - dv - du / 2, u, v);
@@ -46,6 +68,18 @@ static tn_status put_flight(const tn_house *house, const tn_face *face, tn_marks
         u0 = u;
         v0 = v;
     }
+    if (flight->path_count > 1)
+        tn_marks_circle(marks, TN_MARK_STAIR, (double)flight->path[0][0], (double)flight->path[0][1], tip / 3);
+}
+
+static tn_status put_flight(const tn_house *house, const tn_face *face, const tn_mark_style *style, tn_marks *marks,
+                            tn_error *error)
+{
+    tn_flight flight;
+    tn_status status = tn_flight_stand(house, face, &flight, error);
+    put_way(&flight, marks);
+    if (flight.path_count > 1)
+        put_ascent(house, face, &flight, style, marks);
     tn_flight_clear(&flight);
     return status;
 }
@@ -85,96 +119,251 @@ static void put_void(tn_rectangle r, tn_marks *marks)
     tn_marks_line(marks, TN_MARK_VOID, x0, y1, x1, y0);
 }
 
-static tn_status put_symbols(const tn_house *house, uint32_t storey, const tn_swings *doors, tn_marks *marks,
-                             tn_error *error)
+/* ---- tags of doors and windows */
+
+#define TAG_RADIUS 0.95 /* of a circle around two signs, in the size of lettering */
+
+/* In a circle, which takes its place from the names of rooms. */
+static tn_status put_tag(const char *tag, double u, double v, const tn_mark_style *style, tn_taken *taken,
+                         tn_marks *marks, tn_error *error)
+{
+    double radius = fmax(TAG_RADIUS, tn_mark_width(tag) / 2 + 0.25) * style->lettering;
+    int64_t half = (int64_t)radius;
+    tn_marks_circle(marks, TN_MARK_TAG, u, v, radius);
+    tn_marks_text(marks, TN_MARK_TAG, u, v, style->lettering, false, tag);
+    tn_rectangle at = {(int64_t)u - half, (int64_t)u + half, (int64_t)v - half, (int64_t)v + half};
+    return tn_rectangles_add(&taken->swings, at, error);
+}
+
+/* In the quarter that a door sweeps, where nothing stands. */
+static tn_status tag_door(const tn_swing *door, const char *tag, const tn_mark_style *style, tn_taken *taken,
+                          tn_marks *marks, tn_error *error)
+{
+    const tn_door_leaf *leaf = &door->leaves[0];
+    double wide = fabs(leaf->shut - leaf->hinge), along = leaf->hinge + (leaf->shut - leaf->hinge) * 0.5,
+           across = leaf->face + leaf->side * fmax(0.5 * wide, 1.1 * style->lettering);
+    if (door->count == 2)
+        along = leaf->shut;
+    return put_tag(tag, leaf->in_y ? across : along, leaf->in_y ? along : across, style, taken, marks, error);
+}
+
+/* Outside of its wall, or, of one between rooms, in the second of them. */
+static tn_status tag_window(const tn_house *house, const tn_face *face, const char *tag, const tn_mark_style *style,
+                            tn_taken *taken, tn_marks *marks, tn_error *error)
+{
+    tn_box hole;
+    if (!tn_house_hole(house, face, &hole))
+        return TN_OK;
+    bool low = face->side == TN_HOUSE_LEFT || face->side == TN_HOUSE_BACK, in_y = face->at.x0 == face->at.x1;
+    double aside = 1.3 * style->lettering, u = (double)(hole.x0 + hole.x1) / 2, v = (double)(hole.y0 + hole.y1) / 2;
+    if (in_y)
+        u = low ? (double)hole.x0 - aside : (double)hole.x1 + aside;
+    else
+        v = low ? (double)hole.y0 - aside : (double)hole.y1 + aside;
+    return put_tag(tag, u, v, style, taken, marks, error);
+}
+
+/* What the marks of a plan are made from. */
+typedef struct tn_planned {
+    const tn_house *house;
+    uint32_t storey;
+    const tn_mark_style *style;
+    tn_taken taken;
+    tn_swings doors;
+    tn_designations names;
+} tn_planned;
+
+static tn_status put_tags(tn_planned *p, tn_marks *marks, tn_error *error)
 {
     tn_status status = TN_OK;
     size_t door = 0;
-    for (uint32_t i = 0; i < house->face_count; i++) {
+    for (uint32_t i = 0; status == TN_OK && i < p->house->face_count; i++) {
+        const tn_face *face = &p->house->faces[i];
+        const char *tag = face->storey == p->storey ? tn_designation_of(&p->names, face) : NULL;
+        bool hung = door < p->doors.count && p->doors.items[door].of == i;
+        if (tag && hung)
+            status = tag_door(&p->doors.items[door], tag, p->style, &p->taken, marks, error);
+        else if (tag)
+            status = tag_window(p->house, face, tag, p->style, &p->taken, marks, error);
+        door += hung;
+    }
+    return status;
+}
+
+/* ---- symbols */
+
+static tn_status put_symbols(const tn_planned *p, tn_marks *marks, tn_error *error)
+{
+    const tn_house *house = p->house;
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < house->face_count; i++) {
         const tn_face *face = &house->faces[i];
         if (face->relation == TN_FACE_UNDER && face->kind == TN_FACE_STAIR) {
-            uint32_t cell = face->storey == storey ? face->first : face->second;
-            if (house->cells[cell].storey == storey)
+            uint32_t cell = face->storey == p->storey ? face->first : face->second;
+            if (house->cells[cell].storey == p->storey)
                 put_stair(house, cell, marks);
         } else if (face->relation == TN_FACE_UNDER && tn_form_flight(house->form, face->kind)) {
-            if (status == TN_OK && face->storey == storey)
-                status = put_flight(house, face, marks, error);
-        } else if (door < doors->count && doors->items[door].of == i) {
-            put_door(marks, &doors->items[door]);
-            door++;
+            if (face->storey == p->storey)
+                status = put_flight(house, face, p->style, marks, error);
         }
     }
+    for (size_t i = 0; i < p->doors.count; i++)
+        put_door(marks, &p->doors.items[i]);
     for (uint32_t i = 0; i < house->cell_count; i++)
-        if (house->cells[i].storey == storey && house->cells[i].open)
+        if (house->cells[i].storey == p->storey && house->cells[i].open)
             put_void(tn_cell_clear(house, i), marks);
     return status;
 }
 
-/* ---- dimensions */
+/* ---- dimensions, outside of the house; u, v as drawn */
 
-static int by_place(const void *a, const void *b)
+/* How far the first chain is from the walls, in the size of lettering: tags and marks of sections stand before it. */
+#define FIRST_CHAIN 5.0
+#define FIRST_CHAIN_COARSE 3.2
+#define NEXT_CHAIN 2.8
+
+/* The sides of a plan, as they are drawn: the front is below. */
+static const struct tn_plan_side {
+    tn_house_side of;
+    bool upright, high;
+} plan_sides[] = {{TN_HOUSE_FRONT, false, false},
+                  {TN_HOUSE_BACK, false, true},
+                  {TN_HOUSE_RIGHT, true, false},
+                  {TN_HOUSE_LEFT, true, true}};
+
+static void put_place(double *places, size_t *count, int64_t from, int64_t to)
 {
-    double x = *(const double *)a, y = *(const double *)b;
-    return x < y ? -1 : x > y;
+    places[(*count)++] = -(double)from;
+    places[(*count)++] = -(double)to;
 }
 
-/* A chain of dimensions between places, and a second one over the whole. */
-static void put_chain(const tn_house *house, double *places, size_t count, double edge, bool upright, double lettering,
-                      tn_marks *marks)
+/* Where the openings of a side begin and end; none: 0. */
+static size_t find_openings(const tn_planned *p, const struct tn_plan_side *side, double *places)
 {
-    qsort(places, count, sizeof *places, by_place);
-    double inner = edge - 3 * lettering, outer = edge - 5.5 * lettering;
-    size_t stops = 1;
-    for (size_t i = 1; i < count; i++)
-        if (places[i] > places[stops - 1])
-            places[stops++] = places[i];
-    for (size_t i = 1; i < stops; i++)
-        tn_marks_dimension(marks, house, places[i - 1], places[i], inner, upright, lettering);
-    if (stops > 2)
-        tn_marks_dimension(marks, house, places[0], places[stops - 1], outer, upright, lettering);
-}
-
-static bool put_dimensions(const tn_house *house, uint32_t storey, double lettering, tn_marks *marks)
-{
-    double *places = malloc((4 * house->cell_count + 1) * sizeof *places);
     size_t count = 0;
-    if (!places)
-        return false;
-    double *deep = places + 2 * house->cell_count, low[2] = {INFINITY, INFINITY};
-    int64_t half = house->form->record->wall / 2; /* walls reach so far beyond their planes */
+    for (size_t i = 0; i < p->house->face_count; i++) {
+        const tn_face *face = &p->house->faces[i];
+        tn_box hole;
+        if (face->storey == p->storey && face->relation == TN_FACE_OUTSIDE && face->side == side->of &&
+            tn_house_hole(p->house, face, &hole))
+            put_place(places, &count, side->upright ? hole.y0 : hole.x0, side->upright ? hole.y1 : hole.x1);
+    }
+    return count;
+}
+
+/* The chains of a side: its openings between the ends of the storey, and, below and at the left, rooms and the whole.
+ */
+static void dimension_side(const tn_planned *p, const struct tn_plan_side *side, const double low[2],
+                           const double high[2], double *places, tn_marks *marks)
+{
+    const tn_house *house = p->house;
+    int across = side->upright ? 0 : 1;
+    double lettering = p->style->lettering, out = side->high ? lettering : -lettering,
+           at = (side->high ? high : low)[across] + (p->style->coarse ? FIRST_CHAIN_COARSE : FIRST_CHAIN) * out,
+           half = (double)house->form->record->wall / 2;
+    size_t count = p->style->coarse ? 0 : find_openings(p, side, places), rooms = 0;
+    double ends[2] = {INFINITY, -INFINITY}, *planes = places + 2 * house->face_count + 2;
     for (uint32_t i = 0; i < house->cell_count; i++) {
-        const tn_rectangle *at = &house->cells[i].at;
-        low[0] = fmin(low[0], (double)(at->x0 - half));
-        low[1] = fmin(low[1], (double)(at->y0 - half));
-        if (house->cells[i].storey != storey)
-            continue;
-        places[2 * count] = (double)at->x0;
-        places[2 * count + 1] = (double)at->x1;
-        deep[2 * count] = (double)at->y0;
-        deep[2 * count++ + 1] = (double)at->y1;
+        const tn_rectangle *r = &house->cells[i].at;
+        if (house->cells[i].storey == p->storey)
+            put_place(planes, &rooms, side->upright ? r->y0 : r->x0, side->upright ? r->y1 : r->x1);
+    }
+    for (size_t i = 0; i < rooms; i++) {
+        ends[0] = fmin(ends[0], planes[i] - half);
+        ends[1] = fmax(ends[1], planes[i] + half);
     }
     if (count) {
-        put_chain(house, places, 2 * count, low[1], false, lettering, marks);
-        put_chain(house, deep, 2 * count, low[0], true, lettering, marks);
+        places[count++] = ends[0];
+        places[count++] = ends[1];
+        tn_marks_chain(marks, house, places, count, at, side->upright, p->style);
+        at += NEXT_CHAIN * out;
     }
+    if (side->high || rooms == 0)
+        return;
+    tn_marks_chain(marks, house, planes, rooms, at, side->upright, p->style);
+    tn_marks_chain(marks, house, ends, 2, at + NEXT_CHAIN * out, side->upright, p->style);
+}
+
+/* Lines where sections are cut, outside of the house: arrows look where the section does, each with its letter. */
+static void put_sections(const tn_planned *p, const double low[2], const double high[2], tn_marks *marks)
+{
+    double l = p->style->lettering;
+    for (size_t i = 0; i < p->style->section_count; i++) {
+        const tn_section_place *section = &p->style->sections[i];
+        int across = section->across_x ? 0 : 1, along = 1 - across;
+        const char letter[2] = {section->letter, '\0'};
+        for (int end = 0; end < 2; end++) {
+            double from[2], to[2], tip[2], text[2], out = end ? l : -l;
+            from[across] = to[across] = -(double)section->at;
+            from[along] = (end ? high : low)[along] + (p->style->coarse ? 0.8 : 2.5) * out;
+            to[along] = from[along] + 1.3 * out;
+            tip[across] = to[across] + 1.2 * l; /* sections look towards larger u, or v */
+            tip[along] = to[along];
+            text[across] = to[across] - 0.8 * l;
+            text[along] = to[along];
+            tn_marks_line(marks, TN_MARK_SECTION, from[0], from[1], to[0], to[1]);
+            tn_marks_line(marks, TN_MARK_SECTION, to[0], to[1], tip[0], tip[1]);
+            for (int side = -1; side <= 1; side += 2) {
+                double barb[2];
+                barb[across] = tip[across] - 0.5 * l;
+                barb[along] = tip[along] + side * 0.25 * l;
+                tn_marks_line(marks, TN_MARK_SECTION, barb[0], barb[1], tip[0], tip[1]);
+            }
+            tn_marks_text(marks, TN_MARK_SECTION, text[0], text[1], l, false, letter);
+        }
+    }
+}
+
+static bool put_dimensions(const tn_planned *p, tn_marks *marks)
+{
+    const tn_house *house = p->house;
+    double *places = malloc((2 * house->face_count + 2 * house->cell_count + 4) * sizeof *places);
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    if (!places)
+        return false;
+    for (uint32_t i = 0; i < house->cell_count; i++) {
+        tn_rectangle r = tn_turned(tn_cell_grown(house, &house->cells[i]));
+        low[0] = fmin(low[0], (double)r.x0);
+        low[1] = fmin(low[1], (double)r.y0);
+        high[0] = fmax(high[0], (double)r.x1);
+        high[1] = fmax(high[1], (double)r.y1);
+    }
+    for (size_t i = 0; i < sizeof plan_sides / sizeof *plan_sides; i++)
+        dimension_side(p, &plan_sides[i], low, high, places, marks);
+    put_sections(p, low, high, marks);
     free(places);
     return true;
 }
 
-tn_status tn_marks_plan(const tn_house *house, uint32_t storey, double lettering, tn_marks *marks, tn_error *error)
+static void turn_taken(tn_taken *taken)
 {
-    tn_taken taken = {0};
-    tn_swings doors = {0};
-    tn_status status = tn_taken_find(house, storey, &taken, error);
+    tn_rectangles *all[] = {&taken->items, &taken->stairs, &taken->swings};
+    for (int k = 0; k < 3; k++)
+        for (size_t i = 0; i < all[k]->count; i++)
+            all[k]->items[i] = tn_turned(all[k]->items[i]);
+}
+
+tn_status tn_marks_plan(const tn_house *house, uint32_t storey, const tn_mark_style *style, tn_marks *marks,
+                        tn_error *error)
+{
+    tn_planned p = {.house = house, .storey = storey, .style = style};
+    tn_status status = tn_designations_find(house, style->us, &p.names, error);
     if (status == TN_OK)
-        status = tn_swings_find(house, storey, &taken, &doors, error);
+        status = tn_taken_find(house, storey, &p.taken, error);
     if (status == TN_OK)
-        status = put_symbols(house, storey, &doors, marks, error);
-    if (status == TN_OK && (!put_dimensions(house, storey, lettering, marks) || marks->failed))
+        status = tn_swings_find(house, storey, &p.taken, &p.doors, error);
+    if (status == TN_OK)
+        status = put_symbols(&p, marks, error);
+    if (status == TN_OK && !style->coarse)
+        status = put_tags(&p, marks, error);
+    tn_marks_turn(marks);
+    turn_taken(&p.taken);
+    if (status == TN_OK && (!put_dimensions(&p, marks) || marks->failed))
         status = tn_fail_memory(error);
     if (status == TN_OK)
-        status = tn_marks_names(house, storey, lettering, &taken, marks, error);
-    tn_swings_clear(&doors);
-    tn_taken_clear(&taken);
+        status = tn_marks_names(house, storey, style, &p.names, &p.taken, marks, error);
+    tn_swings_clear(&p.doors);
+    tn_taken_clear(&p.taken);
+    tn_designations_clear(&p.names);
     return status;
 }

@@ -126,10 +126,11 @@ static size_t add_sheet(const tn_house *house, const tn_aspect *usual, tn_aspect
     section.kind = TN_ASPECT_SECTION_Y;
     section.at = clear_of_walls(house, section.kind, low + (high - low) / 2);
     aspects[count++] = section;
-    for (int side = TN_HOUSE_BACK; side <= TN_HOUSE_RIGHT; side++) {
+    static const tn_house_side sides[] = {TN_HOUSE_FRONT, TN_HOUSE_RIGHT, TN_HOUSE_BACK, TN_HOUSE_LEFT};
+    for (int i = 0; i < 4; i++) {
         aspects[count] = *usual;
         aspects[count].kind = TN_ASPECT_ELEVATION;
-        aspects[count++].side = (tn_house_side)side;
+        aspects[count++].side = sides[i];
     }
     aspects[count++] = *usual;
     roofless.storeys = usual->storeys ? usual->storeys : 1;

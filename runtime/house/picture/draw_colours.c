@@ -6,9 +6,9 @@
 
 /* Surfaces that the lamp lights fully have these colours where the form names no material. */
 static const double colours[TN_GROUP_COUNT][3] = {
-    [TN_GROUP_WALL] = {0.97, 0.96, 0.94}, [TN_GROUP_FLOOR] = {0.93, 0.90, 0.84}, [TN_GROUP_ROOF] = {0.62, 0.66, 0.72},
-    [TN_GROUP_ITEM] = {0.84, 0.74, 0.60}, [TN_GROUP_PANE] = {0.70, 0.84, 0.93},  [TN_GROUP_LEAF] = {0.74, 0.46, 0.34},
-    [TN_GROUP_GUARD] = {0.80, 0.76, 0.70},
+    [TN_GROUP_WALL] = {0.97, 0.96, 0.94},  [TN_GROUP_FLOOR] = {0.93, 0.90, 0.84},  [TN_GROUP_ROOF] = {0.62, 0.66, 0.72},
+    [TN_GROUP_ITEM] = {0.84, 0.74, 0.60},  [TN_GROUP_PANE] = {0.70, 0.84, 0.93},   [TN_GROUP_LEAF] = {0.74, 0.46, 0.34},
+    [TN_GROUP_GUARD] = {0.80, 0.76, 0.70}, [TN_GROUP_FLIGHT] = {0.93, 0.90, 0.84},
 };
 
 #define FACING 0.79 /* how light a surface is that looks at the eye (render.c) */
@@ -21,7 +21,7 @@ static bool shows_materials(const tn_house_form *form, tn_aspect_kind kind)
 static uint32_t material_group(const tn_house *house, const tn_house_block *block)
 {
     uint32_t material = tn_part_material(house, tn_solid_made_part(house, block->kind, block->of, block->item));
-    return material == TN_NO_RECORD ? UINT32_MAX : TN_GROUP_COUNT + material - house->form->record->material_first;
+    return material == TN_NO_RECORD ? 0 : 1 + material - house->form->record->material_first;
 }
 
 const tn_grouping *tn_house_grouping(const tn_house_form *form, tn_aspect_kind kind, tn_grouping *grouping)
@@ -33,6 +33,13 @@ const tn_grouping *tn_house_grouping(const tn_house_form *form, tn_aspect_kind k
 double tn_house_ambient(const tn_house_form *form, tn_aspect_kind kind)
 {
     return shows_materials(form, kind) ? 0.62 : 0.45;
+}
+
+void tn_house_colour_groups(tn_mesh *mesh)
+{
+    for (size_t f = 0; f < mesh->face_count; f++)
+        if (mesh->face_group[f] >= TN_GROUP_COUNT)
+            mesh->face_group[f] = TN_GROUP_COUNT + mesh->face_group[f] / TN_GROUP_COUNT - 1;
 }
 
 /* In drawings that look straight at surfaces, these have their full colour. */

@@ -62,6 +62,7 @@ static tn_status choose_scale(lit_page *p, tn_error *error)
 {
     const uint32_t *scales;
     size_t count = tn_scale_choices(p->metric, &scales);
+    tn_mark_style style = {.us = !p->metric};
     tn_status status = TN_OK;
     bool fits = false;
     for (size_t i = 0; status == TN_OK && !fits && i < count; i++) {
@@ -69,7 +70,8 @@ static tn_status choose_scale(lit_page *p, tn_error *error)
         fits = true;
         for (size_t k = 0; status == TN_OK && k < p->count; k++) {
             tn_house_drawn *d = &p->plans[k];
-            status = tn_house_projection_mark(p->what->house, TN_LETTERING / p->points, &d->projection, error);
+            style.lettering = TN_LETTERING / p->points;
+            status = tn_house_projection_mark(p->what->house, &style, &d->projection, error);
             tn_house_projection_extent(&d->projection, d->low, d->high);
             fits &= wide(p, d) <= PLAN_WIDTH && high(p, d) <= PLAN_HEIGHT;
         }

@@ -6,14 +6,22 @@
 #include "runtime/house/picture/draw.h"
 #include "runtime/scene/view.h"
 
-#define TN_LETTERING 5.5 /* points */
+/* How wide a line of a weight is, in points. */
+static inline double tn_line_points(tn_line_weight weight)
+{
+    return tn_line_weight_widths[weight] * 0.72 / 25.4;
+}
+
+/* Lettering whose capitals are 2.5 mm high, in points: those of DejaVu Sans take this share of its size. */
+#define TN_CAPITALS 0.729
+#define TN_LETTERING (2.5 * 72 / 25.4 / TN_CAPITALS)
 
 /* A drawing of a sheet, and where it stands. */
 typedef struct tn_house_drawn {
     const tn_house_form *form;  /* lent */
     double (*layer_colours)[3]; /* [layers of the form] where they are cut; owned, NULL if there are none */
     tn_house_projection projection;
-    tn_view *view;
+    tn_view *view;          /* what is filled with colour: in elevations and in space, otherwise NULL */
     double low[2], high[2]; /* with its marks, nanometres */
     double x, y;            /* of its lower left corner, points */
 } tn_house_drawn;
@@ -26,6 +34,7 @@ void tn_house_drawn_clear(tn_house_drawn *drawn);
 /* The groups of what is drawn in this way, and their colours: in elevations and in space those of the form's materials,
  * where it names one for a part. In plans and sections the lines count, on light ground. NULL: only kinds of parts. */
 #define TN_PALETTE_MAX (TN_GROUP_COUNT + TN_MATERIALS_MAX)
+void tn_house_colour_groups(tn_mesh *mesh); /* puts the faces of a projection into the groups of the palette */
 const tn_grouping *tn_house_grouping(const tn_house_form *form, tn_aspect_kind kind, tn_grouping *grouping);
 void tn_house_palette(const tn_house_form *form, tn_aspect_kind kind, double palette[TN_PALETTE_MAX][3]);
 

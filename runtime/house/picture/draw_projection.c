@@ -1,4 +1,4 @@
-/* Paints one drawing of a house: what is seen, then what was cut, hatched, then its marks. */
+/* Paints one drawing of a house: what is seen in colour, what was cut, hatched, then its lines and its marks. */
 #include <math.h>
 
 #include "runtime/draw/type.h"
@@ -22,6 +22,8 @@ static double place_v(const tn_drawing_frame *f, double v)
 
 /* ---- what was cut */
 
+#define HATCH_POINTS 3.6 /* between the lines, across the page */
+
 static void trace_cuts(const tn_drawing_frame *f, const tn_house_projection *p, bool panes)
 {
     tn_paint_new_path(f->paint);
@@ -42,8 +44,8 @@ static void hatch(const tn_drawing_frame *f, const tn_house_projection *p)
            y1 = place_v(f, p->low[1]);
     tn_paint_save(f->paint);
     tn_paint_clip(f->paint);
-    tn_paint_line_width(f->paint, 0.35);
-    for (double x = x0 - (y1 - y0); x < x1; x += 2.2) {
+    tn_paint_line_width(f->paint, tn_line_points(TN_STROKE_HATCH));
+    for (double x = x0 - (y1 - y0); x < x1; x += HATCH_POINTS) {
         tn_paint_move_to(f->paint, x, y1);
         tn_paint_line_to(f->paint, x + (y1 - y0), y0);
     }
@@ -52,17 +54,12 @@ static void hatch(const tn_drawing_frame *f, const tn_house_projection *p)
     tn_paint_restore(f->paint);
 }
 
-/* Lines around the parts that hang together: the inner half of each line is painted over. */
-static void paint_cuts(const tn_drawing_frame *f, const tn_house_projection *p)
+static void fill_cuts(const tn_drawing_frame *f, const tn_house_projection *p)
 {
     trace_cuts(f, p, true);
     tn_paint_colour(f->paint, 0.2, 0.35, 0.5);
     tn_paint_fill(f->paint);
     trace_cuts(f, p, false);
-    tn_paint_line_join(f->paint, TN_JOIN_MITRE);
-    tn_paint_colour(f->paint, 0, 0, 0);
-    tn_paint_line_width(f->paint, 1.5);
-    tn_paint_stroke_keep(f->paint);
     tn_paint_colour(f->paint, 0.86, 0.86, 0.87);
     tn_paint_fill_keep(f->paint);
     hatch(f, p);
@@ -85,10 +82,10 @@ static void trace_layer(const tn_drawing_frame *f, const tn_cut_layer *layer)
     tn_paint_close_path(f->paint);
 }
 
-static void trace_joint(const tn_drawing_frame *f, const tn_cut_layer *layer)
+static void trace_line(const tn_drawing_frame *f, const tn_drawn_line *line)
 {
-    tn_paint_move_to(f->paint, place_u(f, layer->line[0][0]), place_v(f, layer->line[0][1]));
-    tn_paint_line_to(f->paint, place_u(f, layer->line[1][0]), place_v(f, layer->line[1][1]));
+    tn_paint_move_to(f->paint, place_u(f, line->at[0][0]), place_v(f, line->at[0][1]));
+    tn_paint_line_to(f->paint, place_u(f, line->at[1][0]), place_v(f, line->at[1][1]));
 }
 
 /* Light, in the colours of their materials; the thickest of each part is hatched. */
@@ -114,23 +111,41 @@ static void paint_layers(const tn_drawing_frame *f, const tn_house_drawn *drawn)
             trace_layer(f, &p->layers[i]);
     hatch(f, p);
     tn_paint_new_path(f->paint);
-    for (size_t i = 0; i < p->layer_count; i++)
-        if (is_drawn(f, &p->layers[i]) && p->layers[i].meets)
-            trace_joint(f, &p->layers[i]);
+    for (size_t i = 0; i < p->joint_count; i++)
+        if (is_drawn(f, tn_joint_layer(p, &p->joints[i])))
+            trace_line(f, &p->joints[i]);
     tn_paint_colour(f->paint, 0.1, 0.1, 0.1);
-    tn_paint_line_width(f->paint, 0.35);
+    tn_paint_line_width(f->paint, tn_line_points(TN_STROKE_THIN));
     tn_paint_stroke(f->paint);
+}
+
+/* ---- edges */
+
+static void paint_lines(const tn_drawing_frame *f, const tn_house_projection *p, tn_line_weight weight)
+{
+    tn_paint_new_path(f->paint);
+    for (size_t i = 0; i < p->line_count; i++)
+        if (p->lines[i].weight == weight)
+            trace_line(f, &p->lines[i]);
+    tn_paint_colour(f->paint, 0, 0, 0);
+    tn_paint_line_width(f->paint, tn_line_points(weight));
+    tn_paint_line_cap(f->paint, TN_CAP_ROUND);
+    tn_paint_stroke(f->paint);
+    tn_paint_line_cap(f->paint, TN_CAP_BUTT);
 }
 
 /* ---- marks */
 
 typedef struct mark_pen {
-    double width, grey, dash;
+    tn_line_weight weight;
+    double grey, dash;
 } mark_pen;
 
 static const mark_pen pens[TN_MARK_LAYERS] = {
-    [TN_MARK_DOOR] = {0.6, 0, 0},   [TN_MARK_STAIR] = {0.4, 0.2, 0},      [TN_MARK_VOID] = {0.4, 0.3, 3},
-    [TN_MARK_GROUND] = {1.4, 0, 0}, [TN_MARK_DIMENSION] = {0.35, 0.3, 0}, [TN_MARK_NAME] = {0.4, 0, 0},
+    [TN_MARK_DOOR] = {TN_STROKE_THIN, 0, 0},      [TN_MARK_STAIR] = {TN_STROKE_THIN, 0, 0},
+    [TN_MARK_VOID] = {TN_STROKE_THIN, 0.3, 3},    [TN_MARK_GROUND] = {TN_STROKE_CUT, 0, 0},
+    [TN_MARK_DIMENSION] = {TN_STROKE_THIN, 0, 0}, [TN_MARK_NAME] = {TN_STROKE_THIN, 0, 0},
+    [TN_MARK_TAG] = {TN_STROKE_THIN, 0, 0},       [TN_MARK_SECTION] = {TN_STROKE_CUT, 0, 0},
 };
 
 static void paint_arc(const tn_drawing_frame *f, const tn_mark *m)
@@ -142,6 +157,19 @@ static void paint_arc(const tn_drawing_frame *f, const tn_mark *m)
     tn_paint_stroke(f->paint);
 }
 
+static void paint_circle(const tn_drawing_frame *f, const tn_mark *m)
+{
+    tn_paint_new_sub_path(f->paint);
+    tn_paint_arc(f->paint, place_u(f, m->u0), place_v(f, m->v0), fabs(m->u1 - m->u0) * f->scale, 0, 2 * M_PI);
+    tn_paint_close_path(f->paint);
+    if (m->layer == TN_MARK_TAG) {
+        tn_paint_colour(f->paint, 1, 1, 1);
+        tn_paint_fill_keep(f->paint);
+        tn_paint_colour(f->paint, 0, 0, 0);
+    }
+    tn_paint_stroke(f->paint);
+}
+
 static void paint_text(const tn_drawing_frame *f, const tn_mark *m)
 {
     double high = m->high * f->scale, half = tn_mark_width(m->text) * high / 2;
@@ -149,7 +177,7 @@ static void paint_text(const tn_drawing_frame *f, const tn_mark *m)
     tn_paint_translate(f->paint, place_u(f, m->u0), place_v(f, m->v0));
     if (m->upright)
         tn_paint_rotate(f->paint, -M_PI / 2);
-    if (m->layer == TN_MARK_NAME) {
+    if (m->layer == TN_MARK_NAME || m->layer == TN_MARK_STAIR) {
         tn_paint_translucent(f->paint, 1, 1, 1, 0.72);
         tn_paint_rectangle(f->paint, -half, -0.6 * high, 2 * half, 1.2 * high);
         tn_paint_fill(f->paint);
@@ -176,10 +204,12 @@ static void paint_mark(const tn_drawing_frame *f, const tn_mark *m)
         return;
     }
     tn_paint_colour(f->paint, pen->grey, pen->grey, pen->grey);
-    tn_paint_line_width(f->paint, pen->width);
+    tn_paint_line_width(f->paint, tn_line_points(pen->weight));
     tn_paint_dash(f->paint, &pen->dash, pen->dash > 0, 0);
     if (m->kind == TN_MARK_ARC)
         paint_arc(f, m);
+    else if (m->kind == TN_MARK_CIRCLE)
+        paint_circle(f, m);
     else
         paint_line(f, m);
     tn_paint_dash(f->paint, NULL, 0, 0);
@@ -198,12 +228,14 @@ void tn_draw_projection(const tn_canvas *canvas, const tn_house_drawn *drawn, do
     tn_drawing_frame f = frame_of(canvas, drawn, points_per_nm);
     tn_house_palette(drawn->form, p->aspect.kind, palette);
     tn_view_place place = {
-        f.x, f.y, f.scale, 0.35, tn_house_ambient(drawn->form, p->aspect.kind), (const double(*)[3])palette, 0};
-    tn_view_paint(canvas, drawn->view, &place);
-    if (p->aspect.kind != TN_ASPECT_AXONOMETRIC)
-        paint_cuts(&f, p);
+        f.x, f.y, f.scale, 0, tn_house_ambient(drawn->form, p->aspect.kind), (const double(*)[3])palette, 0};
+    if (drawn->view)
+        tn_view_paint(canvas, drawn->view, &place);
+    fill_cuts(&f, p);
     if (p->layer_count > 0)
         paint_layers(&f, drawn);
+    for (int weight = TN_STROKE_WEIGHTS - 1; weight >= TN_STROKE_CUT; weight--)
+        paint_lines(&f, p, (tn_line_weight)weight);
     for (size_t i = 0; i < p->marks.count; i++)
         paint_mark(&f, &p->marks.items[i]);
 }
@@ -220,8 +252,8 @@ static const double lights[][3] = {
 static void paint_lit(const tn_drawing_frame *f, const tn_lit *lit)
 {
     const double *c = lights[lit->tone];
-    double x0 = place_u(f, (double)lit->at.x0), x1 = place_u(f, (double)lit->at.x1),
-           y0 = place_v(f, (double)lit->at.y1), y1 = place_v(f, (double)lit->at.y0);
+    double x0 = place_u(f, -(double)lit->at.x1), x1 = place_u(f, -(double)lit->at.x0),
+           y0 = place_v(f, -(double)lit->at.y0), y1 = place_v(f, -(double)lit->at.y1); /* the front is below */
     if (lit->at.x0 == lit->at.x1 || lit->at.y0 == lit->at.y1) {
         tn_paint_move_to(f->paint, x0, y0);
         tn_paint_line_to(f->paint, x1, y1);

@@ -9,13 +9,14 @@
 
 #define MARGIN 28.0
 #define GAP 26.0
-#define CAPTION 18.0
+#define CAPTION 22.0
 #define HEADING 24.0
-#define NOTE_LEADING 8.5
+#define NOTE_LEADING 13.0
 #define NOTE_LINES 3u
 #define LEGIBLE_METRIC 100u /* scales at which a plan of a house can be read: 1:100, 1/8" */
 #define LEGIBLE_FEET 96u
-#define VIEW_WIDTH 820.0 /* the most that one drawing takes, in points */
+#define TN_SECTIONS_MOST 26 /* they have letters */
+#define VIEW_WIDTH 820.0    /* the most that one drawing takes, in points */
 #define VIEW_HEIGHT 620.0
 
 typedef struct sheet {
@@ -23,6 +24,8 @@ typedef struct sheet {
     const tn_house_drawing *drawing;
     tn_house_drawn *drawn; /* [drawing->count]; owned */
     bool metric;
+    tn_section_place sections[TN_SECTIONS_MOST];
+    tn_mark_style style;
     uint32_t scale;
     double points;        /* a nanometre, in points */
     double width, height; /* of the page */
@@ -40,9 +43,15 @@ tn_status tn_house_view_take(const tn_solids *solids, const tn_aspect *aspect, c
         house, solids, aspect, tn_house_grouping(house->form, aspect->kind, &grouping), &drawn->projection, error);
     if (status == TN_OK)
         status = tn_house_layer_colours(house, &drawn->layer_colours, error);
-    if (status == TN_OK)
-        status = tn_display_list_of_mesh(&drawn->projection.mesh, &display, error);
     if (status == TN_OK) {
+        tn_house_projection *p = &drawn->projection;
+        tn_house_colour_groups(&p->mesh);
+        status = tn_lines_merge(p->lines, &p->line_count, false, error);
+    }
+    bool filled = aspect->kind == TN_ASPECT_ELEVATION || aspect->kind == TN_ASPECT_AXONOMETRIC;
+    if (status == TN_OK && filled)
+        status = tn_display_list_of_mesh(&drawn->projection.mesh, &display, error);
+    if (status == TN_OK && filled) {
         display.closed = true;
         display.watch = watch;
         status = tn_view_take(&display, &drawn->projection.camera, &drawn->view, error);
@@ -77,14 +86,35 @@ static double high(const sheet *s, const tn_house_drawn *d)
     return (d->high[1] - d->low[1]) * s->points;
 }
 
+static bool is_section(const tn_aspect *aspect)
+{
+    return aspect->kind == TN_ASPECT_SECTION_X || aspect->kind == TN_ASPECT_SECTION_Y;
+}
+
+/* Plans show where the sections of the sheet are cut, which have letters in their order. */
+static void letter_sections(sheet *s)
+{
+    s->style.sections = s->sections;
+    for (size_t i = 0; i < s->drawing->count && s->style.section_count < TN_SECTIONS_MOST; i++) {
+        const tn_aspect *a = &s->drawing->aspects[i];
+        if (!is_section(a))
+            continue;
+        char letter = (char)('A' + s->style.section_count);
+        s->sections[s->style.section_count++] =
+            (tn_section_place){.across_x = a->kind == TN_ASPECT_SECTION_X, .at = a->at, .letter = letter};
+    }
+}
+
 static tn_status mark_all(sheet *s, uint32_t scale, tn_error *error)
 {
     tn_status status = TN_OK;
     s->scale = scale;
     s->points = TN_POINTS_PER_NM / scale;
+    s->style.lettering = TN_LETTERING / s->points;
+    s->style.coarse = scale > (s->metric ? LEGIBLE_METRIC : LEGIBLE_FEET);
     for (size_t i = 0; status == TN_OK && i < s->drawing->count; i++) {
         tn_house_drawn *d = &s->drawn[i];
-        status = tn_house_projection_mark(s->house, TN_LETTERING / s->points, &d->projection, error);
+        status = tn_house_projection_mark(s->house, &s->style, &d->projection, error);
         tn_house_projection_extent(&d->projection, d->low, d->high);
     }
     return status;
@@ -110,12 +140,12 @@ static double top_of(const sheet *s)
     return MARGIN + (s->drawing->title ? HEADING : 0);
 }
 
-/* Is x from the left to the right in it, and is it the only drawing in its row of the sheet? */
+/* Is x from the right to the left in it, and is it the only drawing in its row of the sheet? */
 static bool is_alone_along_x(const sheet *s, size_t i)
 {
     const tn_aspect *a = &s->drawing->aspects[i];
     bool along = a->kind == TN_ASPECT_PLAN || a->kind == TN_ASPECT_SECTION_Y ||
-                 (a->kind == TN_ASPECT_ELEVATION && a->side == TN_HOUSE_BACK);
+                 (a->kind == TN_ASPECT_ELEVATION && a->side == TN_HOUSE_FRONT);
     bool first = i == 0 || s->drawn[i - 1].y < s->drawn[i].y;
     bool last = i + 1 == s->drawing->count || s->drawn[i].y < s->drawn[i + 1].y;
     return along && first && last;
@@ -286,14 +316,20 @@ static tn_status choose_page(sheet *s, tn_error *error)
 
 static void paint_captions(const sheet *s, tn_paint *paint)
 {
-    char scale[32];
-    tn_scale_write(s->scale, s->metric, scale, sizeof scale);
+    size_t section = 0;
     for (size_t i = 0; i < s->drawing->count; i++) {
         const tn_house_drawn *d = &s->drawn[i];
         double middle = d->x + wide(s, d) / 2;
+        char caption[sizeof d->projection.title + 16];
+        const char *title = d->projection.title;
+        char letter = is_section(&s->drawing->aspects[i]) && section < s->style.section_count
+                          ? s->sections[section++].letter
+                          : '\0';
+        if (letter)
+            snprintf(caption, sizeof caption, "%c-%c  %s", letter, letter, title);
         tn_paint_colour(paint, 0, 0, 0);
-        tn_paint_face(paint, 7.5, true);
-        tn_type_line(paint, middle, d->y + CAPTION - 3, TN_ALIGN_CENTRE, d->projection.title);
+        tn_paint_face(paint, TN_LETTERING, true);
+        tn_type_line(paint, middle, d->y + CAPTION - 6, TN_ALIGN_CENTRE, letter ? caption : title);
     }
 }
 
@@ -304,14 +340,14 @@ static void paint_bar(const sheet *s, tn_paint *paint, double y)
     int64_t unit = s->metric ? INT64_C(1000000000) : TN_FOOT_NM * 4;
     double step = (double)unit * s->points, x = s->width - MARGIN - 4 * step;
     tn_scale_write(s->scale, s->metric, text, sizeof text);
-    tn_paint_face(paint, 6.5, false);
+    tn_paint_face(paint, TN_LETTERING, false);
     tn_paint_colour(paint, 0, 0, 0);
     tn_type_line(paint, x - 8, y + 4, TN_ALIGN_RIGHT, text);
     tn_paint_line_width(paint, 0.5);
     for (int i = 0; i <= 4; i++) {
         tn_length_write_style(unit * i, tn_house_length_style(s->house), text, sizeof text);
         if (i % 2 == 0)
-            tn_type_line(paint, x + step * i, y + 12, TN_ALIGN_CENTRE, text);
+            tn_type_line(paint, x + step * i, y + 4 + NOTE_LEADING, TN_ALIGN_CENTRE, text);
         if (i == 4)
             break;
         tn_paint_rectangle(paint, x + step * i, y, step, 4);
@@ -329,8 +365,8 @@ static void paint_foot(const sheet *s, tn_paint *paint)
     paint_bar(s, paint, y);
     if (s->drawing->count == 1 && s->drawing->aspects[0].kind == TN_ASPECT_AXONOMETRIC && room < 120)
         room = 120;
-    tn_paint_face(paint, 6.5, false);
-    tn_paint_colour(paint, 0.25, 0.25, 0.25);
+    tn_paint_face(paint, TN_LETTERING, false);
+    tn_paint_colour(paint, 0, 0, 0);
     y += 4;
     for (size_t i = 0; i < s->drawing->note_count && room > 60; i++)
         y += NOTE_LEADING * tn_type_paragraph(paint, MARGIN, y, room, NOTE_LEADING, NOTE_LINES, s->drawing->notes[i]);
@@ -356,7 +392,9 @@ tn_status tn_house_draw(const tn_house *house, const tn_solids *solids, const tn
                .drawing = drawing,
                .drawn = calloc(drawing->count + 1, sizeof *s.drawn),
                .metric = tn_house_length_style(house) != TN_STYLE_FEET,
-               .foot = 22 + NOTE_LEADING * (double)drawing->note_count};
+               .foot = 30 + NOTE_LEADING * NOTE_LINES * (double)drawing->note_count};
+    s.style.us = !s.metric;
+    letter_sections(&s);
     tn_canvas *canvas = NULL;
     tn_status status = s.drawn ? TN_OK : tn_fail_memory(error);
     for (size_t i = 0; status == TN_OK && i < drawing->count; i++)
