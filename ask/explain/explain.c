@@ -290,6 +290,28 @@ static tn_status set_lists(const tn_explanation *why, const tn_why *node, tn_exp
     return status;
 }
 
+/* What the sides of a comparison came to. */
+static tn_status set_sides(const tn_explanation *why, const tn_why *node, tn_explained_part *to, tn_error *error)
+{
+    tn_buffer text = {0};
+    if (node->sides == TN_NO_WHY)
+        return TN_OK;
+    const tn_sides *sides = &why->sides[node->sides];
+    if (!tn_words_side(why, sides, sides->left, &text))
+        return tn_fail_memory(error);
+    to->has_left = to->has_right = !sides->difference;
+    to->has_difference = sides->difference;
+    *(sides->difference ? &to->difference : &to->left) = text.data;
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < sides->right_count; i++) {
+        tn_buffer right = {0};
+        if (!tn_words_side(why, sides, sides->right[i], &right))
+            return tn_fail_memory(error);
+        status = tn_owneds_add(&to->right, right.data, error);
+    }
+    return status;
+}
+
 static void set_number(const tn_why *node, const tn_part *part, tn_explained_part *to)
 {
     bool known = node->number != TN_NO_NUMBER, sum = part->kind == TN_PART_SUM;
@@ -323,6 +345,8 @@ static tn_status set_part(const tn_explained *explained, const tn_explanation *w
     tn_status status = take_words(&evidence, &to->evidence, &to->has_evidence, error);
     if (status == TN_OK && !to->text)
         status = tn_fail_memory(error);
+    if (status == TN_OK)
+        status = set_sides(why, node, to, error);
     if (status == TN_OK && to->has_closest)
         status = set_closest(why, node, &to->closest, error);
     return status == TN_OK ? set_lists(why, node, to, error) : status;

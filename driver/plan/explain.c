@@ -213,6 +213,40 @@ static bool words_places(const tn_explanation *why, const tn_why *node)
     return node->matched && node->stretch_count > 0 && !(joined && whole && !part->somewhere);
 }
 
+bool tn_words_side(const tn_explanation *why, const tn_sides *sides, const mpq_t value, tn_buffer *out)
+{
+    tn_amount_unit unit = tn_amount_unit_of(why->schema, sides->power);
+    tn_buffer text = {0};
+    mpq_t shown;
+    mpq_init(shown);
+    mpq_set(shown, value);
+    if (sides->percent && sides->power == 0)
+        mpz_mul_ui(mpq_numref(shown), mpq_numref(shown), 100);
+    mpq_canonicalize(shown);
+    bool good = tn_amount_write(unit, shown, &text);
+    if (good && strchr(text.data, '/') && sides->power >= 0) { /* a fraction without an end: to six digits */
+        text.size = 0;
+        tn_amount_convert(unit, shown);
+        good = tn_amount_write_about(unit, shown, &text);
+    }
+    mpq_clear(shown);
+    good = good && tn_buffer_printf(out, "%s%s", text.data, sides->percent && sides->power == 0 ? " %" : "");
+    free(text.data);
+    return good;
+}
+
+/* "60, compared with 30 and 60", "the left side less the right side is 3 m" */
+static void say_sides(const tn_explanation *why, const tn_sides *sides, tn_buffer *out)
+{
+    if (sides->difference)
+        tn_buffer_printf(out, "the left side less the right side is ");
+    tn_words_side(why, sides, sides->left, out);
+    for (uint32_t i = 0; i < sides->right_count; i++) {
+        tn_buffer_printf(out, i ? " and " : ", compared with ");
+        tn_words_side(why, sides, sides->right[i], out);
+    }
+}
+
 void tn_words_evidence(const tn_explanation *why, const tn_why *node, tn_buffer *out)
 {
     const tn_part *part = tn_why_part(why, node);
@@ -222,11 +256,13 @@ void tn_words_evidence(const tn_explanation *why, const tn_why *node, tn_buffer 
     }
     if (node->number != TN_NO_NUMBER)
         say_number(why, part, node->number, out);
+    else if (node->sides != TN_NO_WHY) /* they are of the whole plan */
+        say_sides(why, &why->sides[node->sides], out);
     else if (!node->matched)
         say_missing(why, node, out);
     else if (part->kind == TN_PART_DISTANCE && node->stretch_count > 0)
         tn_buffer_printf(out, "some source is far enough: ");
-    if (words_places(why, node) && node->number == TN_NO_NUMBER)
+    if (words_places(why, node) && node->number == TN_NO_NUMBER && node->sides == TN_NO_WHY)
         words_stretches(why, node, out);
     if (node->mirrored && node->parent != TN_NO_WHY && !why->nodes[node->parent].mirrored)
         tn_buffer_printf(out, "%smirrored", out->size ? ", " : "");

@@ -83,6 +83,9 @@ typedef struct tn_explain_rows {
 
 /* ---- pieces that the text and whoever makes a message of it share */
 
+/* What a side of a comparison came to, as people read it: "12 m", "56.25 %". false: out of memory. */
+bool tn_words_side(const tn_explanation *why, const tn_sides *sides, const mpq_t value, tn_buffer *out);
+
 /* What there is to say about a node beside its text: where it matched, what it counted, what was closest. */
 void tn_words_evidence(const tn_explanation *why, const tn_why *node, tn_buffer *out);
 

@@ -60,4 +60,71 @@ if "$TARTAN" draw "$files/rows.plan" --sample 1 -o "$scratch/any.svg" 2>/dev/nul
     grep -q '#c7332b' "$scratch/alone.svg" || fail 'what condemns is not red'
     grep -q '#5ca861' "$scratch/alone.svg" && fail 'what condemns is green'
 fi
+
+# What both sides of a comparison came to, beside what Python finds.
+"$TARTAN" sample "$files/sides.plan" 12 --seed 5 >"$scratch/sides"
+{
+    while read -r plan; do
+        for rule in wide share between dear many-beds back turned rate named moved shifted by-trays floor longest; do
+            "$TARTAN" explain "$files/sides.plan" "$plan" --rule "$rule" --json 2>/dev/null
+        done
+    done
+} <"$scratch/sides" >"$scratch/sides.json"
+python3 - "$scratch/sides.json" <<'PYTHON' || fail 'the sides of comparisons come to something else'
+import json, sys
+from fractions import Fraction as F
+
+RENT = {"kitchen": 30, "bath": 20, "bed": 10}
+
+
+def number(text):
+    word = text.split()[0].replace(",", "")
+    return float(F(word)) if "." not in word else float(word)
+
+
+def sides(rule, trays):
+    widths = [(int(w[:-1]), u) for w, u in trays]
+    width, rent = sum(w for w, u in widths), sum(RENT[u] for w, u in widths)
+    of = lambda use: sum(w for w, u in widths if u == use)
+    many = lambda use: sum(u == use for w, u in widths)
+    n = len(widths)
+    return {
+        "wide": (width, [2 * of("bed") + 3], " m"),
+        "share": (100 * of("bed") / width, [40], " %"),
+        "between": (100 * of("bath") / width, [10, 30], " %"),
+        "dear": (rent, [30, 60], ""),
+        "many-beds": (many("bed"), [many("kitchen")], ""),
+        "back": (of("bed") - of("bath"), [3], " m"),
+        "turned": (60, [rent], ""),
+        "rate": (rent / width, [3, 5], " /m"),
+        "named": (rent, [2 * (rent + n)], ""),
+        "moved": (rent + 1 - 2 * (rent + n) - 7, None, ""),
+        "shifted": (rent + 5 - 60, None, ""),
+        "by-trays": (3 * n, [4 * many("bed")], ""),
+        "floor": (6 * width, [70], " m2"),
+        "longest": None,
+    }[rule]
+
+
+seen = 0
+for line in open(sys.argv[1]):
+    answer = json.loads(line)
+    trays = [tray.split() for tray in answer["plan"].split(" | ")]
+    rule, why = answer["rules"][0]["name"], answer["rules"][0]["why"]
+    wanted = sides(rule, trays)
+    if wanted is None:
+        assert "left" not in why and "difference" not in why, (rule, why)
+        continue
+    left, right, unit = wanted
+    if right is None:
+        got = [why["difference"]]
+        assert "left" not in why and why["evidence"] == "the left side less the right side is " + why["difference"]
+    else:
+        got = [why["left"], *why["right"]]
+        assert why["evidence"] == why["left"] + ", compared with " + " and ".join(why["right"]), why
+    for text, value in zip(got, [left, *(right or [])], strict=True):
+        assert abs(number(text) - value) <= 1e-5 * max(1, abs(value)) and text.endswith(unit), (rule, trays, text, value)
+    seen += 1
+assert seen == 12 * 13, seen
+PYTHON
 finish

@@ -167,11 +167,11 @@ static void emit_term(tn_emit *emit, const tn_checked_term *term)
                                        });
 }
 
-/* whole: of the whole plan: `matches` and extremes are written out as well. The power is kept of what is shown to
- * people. needed: a function without which it has no value, or TN_NO_RECORD. */
+/* whole: of the whole plan: `matches` and extremes are written out as well. The power is kept of what can be
+ * shown to people. needed: a function without which it has no value, or TN_NO_RECORD. */
 static uint32_t emit_sum(tn_emit *emit, const tn_checked_sum *sum, const char *constant, bool whole, uint32_t needed)
 {
-    bool shown = whole || (sum->houses && sum->power >= 0 && sum->power <= 3);
+    bool shown = whole || (sum->power >= 0 && sum->power <= 3);
     uint32_t first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_TERM);
     if (needed != TN_NO_RECORD)
         tn_emit_needed(emit, needed);

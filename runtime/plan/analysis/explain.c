@@ -395,6 +395,7 @@ static tn_status add_node(tn_explaining *e, tn_reader_of who, tn_stretch region,
                                     .region = region,
                                     .number = TN_NO_NUMBER,
                                     .closest = TN_NO_WHY,
+                                    .sides = TN_NO_WHY,
                                     .parent = parent,
                                     .first = TN_NO_WHY,
                                     .next = TN_NO_WHY};
@@ -625,6 +626,26 @@ static tn_status explain_number(tn_explaining *e, tn_reader_of who, tn_stretch r
     return sum_of(e, who, region, number);
 }
 
+/* What both sides come to, of a comparison of the whole plan. */
+static tn_status explain_comparison(tn_explaining *e, tn_reader_of who, uint32_t node)
+{
+    tn_explanation *result = e->result;
+    tn_stretch region = result->nodes[node].region;
+    if (region.begin != 0 || region.end != result->length || who.mirrored)
+        return TN_OK;
+    if (!tn_array_reserve_from(&result->sides, &result->sides_capacity, 8, result->sides_count, 1,
+                               sizeof *result->sides))
+        return tn_fail_memory(e->error);
+    tn_sides *sides = &result->sides[result->sides_count];
+    tn_sides_init(sides);
+    tn_status status = tn_explain_sides(e->vm, &result->trees[who.tree], who.part, sides, e->error);
+    if (status != TN_OK || (sides->right_count == 0 && !sides->difference))
+        tn_sides_clear(sides);
+    else
+        result->nodes[node].sides = result->sides_count++;
+    return status;
+}
+
 /* ---- what lies below a part */
 
 static tn_status explain_children(tn_explaining *e, tn_reader_of who, tn_stretch region, tn_asked asked, uint32_t node)
@@ -742,6 +763,7 @@ static tn_status explain_below(tn_explaining *e, tn_reader_of who, uint32_t node
     case TN_PART_WHERE:
         return explain_where(e, who, at, node);
     case TN_PART_COMPARISON:
+        return explain_comparison(e, who, node);
     case TN_PART_IMAGE:
     case TN_PART_HOUSE: /* in no rule about plans */
     case TN_PART_KIND_COUNT:
@@ -812,6 +834,9 @@ void tn_explanation_clear(tn_explanation *explanation)
     free(explanation->nodes);
     free(explanation->stretches);
     free(explanation->gaps);
+    for (uint32_t i = 0; i < explanation->sides_count; i++)
+        tn_sides_clear(&explanation->sides[i]);
+    free(explanation->sides);
     *explanation = (tn_explanation){0};
 }
 

@@ -6,7 +6,10 @@
 #ifndef TARTAN_PLAN_ANALYSIS_EXPLAIN_H
 #define TARTAN_PLAN_ANALYSIS_EXPLAIN_H
 
+#include <gmp.h>
+
 #include "runtime/plan/match/parts.h"
+#include "runtime/plan/match/vm.h"
 #include "runtime/plan/schema/schema.h"
 
 #define TN_NO_WHY UINT32_MAX
@@ -28,6 +31,18 @@ typedef struct tn_gap {
     bool fits;      /* the gap meets the separator */
 } tn_gap;
 
+/* What the sides of a comparison of sums come to on the whole plan, in nanometres to the power: the left one, and what
+ * it is compared with, two numbers of `in A..B`; or, as `difference`, how much more the left one is. Neither: that
+ * cannot be said. */
+#define TN_SIDES_MAX 2u
+typedef struct tn_sides {
+    mpq_t left, right[TN_SIDES_MAX];
+    uint32_t right_count;
+    bool difference; /* left is that */
+    int power;       /* of a length; below 0 as in amount.h */
+    bool percent;    /* the author compares with a percentage */
+} tn_sides;
+
 /* One part of a rule on one stretch of the plan. */
 typedef struct tn_why {
     uint32_t tree, part; /* which tn_parts of the explanation, and which part of it */
@@ -45,6 +60,7 @@ typedef struct tn_why {
      * parts: only the plan's beginning or end is missing. */
     uint32_t run_first, run_count;
     tn_stretch run;
+    uint32_t sides;   /* a comparison: which of the explanation's, or TN_NO_WHY */
     uint32_t closest; /* a tray specifier that did not match: the tray with the fewest wrong fields; or TN_NO_WHY */
     uint32_t parent, first, next;
 } tn_why;
@@ -62,6 +78,9 @@ typedef struct tn_explanation {
     tn_gap *gaps;
     uint32_t gap_count;
     size_t gap_capacity;
+    tn_sides *sides;
+    uint32_t sides_count;
+    size_t sides_capacity;
     tn_parts *trees;
     uint32_t *functions; /* [tree_count]: of which function */
     uint32_t tree_count;
@@ -93,5 +112,11 @@ uint32_t tn_explanation_gaps(const tn_explanation *explanation, uint32_t node);
 /* What a gap of that node says of the part as it is written. */
 typedef enum tn_gap_verdict { TN_GAP_GOOD, TN_GAP_TOO_NEAR, TN_GAP_TOO_FAR } tn_gap_verdict;
 tn_gap_verdict tn_explanation_gap(const tn_explanation *explanation, uint32_t node, const tn_gap *gap);
+
+/* The sides of a part that is a comparison of sums, on the plan that the vm has; `sides` is initialised, and says
+ * nothing of other parts, and of a comparison whose sides cannot be told apart. */
+void tn_sides_init(tn_sides *sides);
+void tn_sides_clear(tn_sides *sides);
+tn_status tn_explain_sides(tn_plan_vm *vm, const tn_parts *parts, uint32_t part, tn_sides *sides, tn_error *error);
 
 #endif

@@ -58,7 +58,7 @@ static void add_spec(reading *r, uint32_t spec)
 static void add_sum(reading *r, uint32_t index)
 {
     const tn_sum_record *sum = &r->module->SUM_records[index];
-    add_number(r, sum->power);
+    add_number(r, 0); /* the power says how a sum is shown, and not what it is */
     add_text(r, sum->constant);
     add_number(r, sum->term_count);
     for (uint32_t i = 0; i < sum->term_count; i++) {
@@ -193,7 +193,7 @@ static bool same_term(comparer *c, const tn_term_record *a, const tn_term_record
 static bool same_sum(comparer *c, uint32_t a, uint32_t b)
 {
     const tn_sum_record *x = &c->a->SUM_records[a], *y = &c->b->SUM_records[b];
-    bool same = x->schema == y->schema && x->power == y->power && x->term_count == y->term_count &&
+    bool same = x->schema == y->schema && x->term_count == y->term_count &&
                 same_text(c, x->constant, y->constant);
     for (uint32_t i = 0; same && i < x->term_count; i++)
         same = same_term(c, &c->a->TERM_records[x->term_first + i], &c->b->TERM_records[y->term_first + i]);

@@ -60,7 +60,10 @@ tn_status tn_plan_vm_term(tn_plan_vm *vm, uint32_t code_begin, uint32_t code_end
  * initialised. */
 tn_status tn_plan_vm_value(tn_plan_vm *vm, uint32_t sum, mpq_t value, bool *has, tn_error *error);
 
-/* The same of a MEASURE record. */
+/* The same without the sum's constant, in two parts: what terms whose factor is above 0 add, and what others do. */
+tn_status tn_plan_vm_added(tn_plan_vm *vm, uint32_t sum, mpq_t above, mpq_t below, bool *has, tn_error *error);
+
+/* The same as the first of a MEASURE record. */
 tn_status tn_plan_vm_measure(tn_plan_vm *vm, uint32_t measure, mpq_t value, bool *has, tn_error *error);
 
 #endif

@@ -241,6 +241,13 @@ static tn_status add_term(tn_plan_vm *vm, const tn_sum_term *term, int64_t *step
     return TN_OK;
 }
 
+static void set_steps(const tn_sum *sum, int64_t steps, mpq_t value)
+{
+    mpz_set_si(mpq_numref(value), steps);
+    mpz_set_ui(mpq_denref(value), 1);
+    mpq_mul(value, value, sum->unit);
+}
+
 tn_status tn_plan_vm_value(tn_plan_vm *vm, uint32_t index, mpq_t value, bool *has, tn_error *error)
 {
     const tn_sum *sum = NULL;
@@ -253,9 +260,25 @@ tn_status tn_plan_vm_value(tn_plan_vm *vm, uint32_t index, mpq_t value, bool *ha
         status = add_term(vm, &sum->terms[i], &steps, has, error);
     if (status != TN_OK)
         return status;
-    mpz_set_si(mpq_numref(value), *has ? steps : 0);
-    mpz_set_ui(mpq_denref(value), 1);
-    mpq_mul(value, value, sum->unit);
+    set_steps(sum, *has ? steps : 0, value);
+    return TN_OK;
+}
+
+tn_status tn_plan_vm_added(tn_plan_vm *vm, uint32_t index, mpq_t above, mpq_t below, bool *has, tn_error *error)
+{
+    const tn_sum *sum = NULL;
+    int64_t steps[2] = {0, 0};
+    tn_status status = tn_plan_vm_summed(vm, index, &sum, error);
+    *has = true;
+    for (uint32_t i = 0; status == TN_OK && i < sum->count; i++) {
+        const tn_term_record *record = &vm->module->TERM_records[sum->record->term_first + i];
+        bool minus = tn_text(vm->module, record->factor)[0] == '-';
+        status = add_term(vm, &sum->terms[i], &steps[minus], has, error);
+    }
+    if (status != TN_OK)
+        return status;
+    set_steps(sum, *has ? steps[0] : 0, above);
+    set_steps(sum, *has ? steps[1] : 0, below);
     return TN_OK;
 }
 
