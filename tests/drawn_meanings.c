@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "runtime/draw/canvas.h"
 
@@ -71,8 +72,8 @@ static void draw_symbols(tn_paint *paint)
 
 static void draw_dimensions(tn_paint *paint)
 {
-    static const tn_dimension all[] = {{{30, 215}, {200, 215}, 12, "1700"},
-                                       {{200, 215}, {30, 215}, 14, "1.70 m"},
+    static const tn_dimension all[] = {{{30, 215}, {200, 215}, 12, "5.997m"},
+                                       {{200, 215}, {30, 215}, 14, "6 m"},
                                        {{230, 240}, {230, 205}, 15, "350"},
                                        {{260, 205}, {260, 240}, 15, "350"},
                                        {{300, 240}, {400, 205}, -12, "9'-11\""}};
@@ -86,7 +87,7 @@ static void draw_dimensions(tn_paint *paint)
 static void draw_page(tn_paint *paint)
 {
     static const double dash = 3;
-    const tn_drawn_view view = {"Ground floor", 100, false, 5, 5, 460, 245};
+    const tn_drawn_view view = {"Ground floor", 5, 5, 460, 245, {10, 240}};
     tn_paint_view_begin(paint, &view);
     draw_hatches(paint);
     draw_symbols(paint);
@@ -111,8 +112,11 @@ int main(int argc, char **argv)
         fputs("usage: drawn_meanings FILE\n", stderr);
         return 2;
     }
+    const tn_canvas_options options = {.width = 480, .height = 290, .title = "Meanings", .scale = 100};
+    const char *ending = strrchr(argv[1], '.');
     picture.path = argv[1];
-    tn_status status = tn_canvas_begin(&picture, 480, 290, "Meanings", &canvas, &error);
+    picture.format = ending && strcmp(ending, ".dxf") == 0 ? TN_CANVAS_DXF : TN_CANVAS_BY_PATH;
+    tn_status status = tn_canvas_open(&picture, &options, &canvas, &error);
     if (status == TN_OK) {
         draw_page(tn_canvas_paint(canvas));
         status = tn_canvas_commit(canvas, &error);

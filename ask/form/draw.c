@@ -10,7 +10,7 @@
 
 tn_file_format tn_draw_format(const tn_draw_request *request)
 {
-    static const tn_file_format formats[] = {TN_FILE_SVG, TN_FILE_PNG, TN_FILE_PDF};
+    static const tn_file_format formats[] = {TN_FILE_SVG, TN_FILE_PNG, TN_FILE_PDF, TN_FILE_DXF};
     return formats[request->format];
 }
 

@@ -94,6 +94,7 @@ static tn_status draw_sheet(sheet *s)
     const char *notes[NOTE_COUNT];
     tn_picture to = tn_picture_asked(tn_draw_format(request));
     tn_error error;
+    to.profile = (tn_profile)request->profile;
     sheet_note_rules(s->session->opened, s->notes[s->note_count++], NOTE_SIZE);
     for (size_t i = 0; i < s->note_count; i++)
         notes[i] = s->notes[i];
@@ -803,8 +804,28 @@ tn_status tn_draw_check(tn_session *session, const tn_draw_request *request)
 
 /* ---- asked */
 
+/* A file for drawing programs shows nothing by what covers it. */
+static tn_status check_dxf(tn_session *session, const tn_draw_request *r)
+{
+    bool dxf = tn_draw_format(r) == TN_FILE_DXF,
+         plans = tn_subject_of(session->opened->module) == TN_SUBJECT_PLANS && !of_houses(session, r) &&
+                 !r->rules.count && !r->front;
+    if (dxf && !plans)
+        return tn_session_refuse(session,
+                                 "end its name in .svg, .png or .pdf; `tartan house` and `tartan mesh` "
+                                 "write houses and forms as .dxf",
+                                 "a DXF is made of plans, and this draws something else");
+    if (!dxf && r->profile)
+        return tn_session_refuse(session, "end its name in .dxf, or leave it out",
+                                 "--profile names the layers of a DXF, and the picture is none");
+    return TN_OK;
+}
+
 static tn_status draw(tn_session *session, const tn_draw_request *request, tn_drawn_picture *made)
 {
+    tn_status status = check_dxf(session, request);
+    if (status != TN_OK)
+        return status;
     switch (tn_subject_of(session->opened->module)) {
     case TN_SUBJECT_SOLID:
     case TN_SUBJECT_FIELD:

@@ -59,6 +59,7 @@ tn_picture tn_picture_asked(tn_file_format format)
 {
     return (tn_picture){.format = format == TN_FILE_PNG   ? TN_CANVAS_PNG
                                   : format == TN_FILE_PDF ? TN_CANVAS_PDF
+                                  : format == TN_FILE_DXF ? TN_CANVAS_DXF
                                                           : TN_CANVAS_SVG};
 }
 

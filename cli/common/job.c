@@ -217,7 +217,7 @@ void tn_job_files_end(tn_made_outputs *outputs)
 unsigned tn_picture_choice(const char *path)
 {
     tn_file_format format = path ? tn_file_format_of(path) : TN_FILE_SVG;
-    return format == TN_FILE_PNG ? 1 : format == TN_FILE_PDF ? 2 : 0;
+    return format == TN_FILE_PNG ? 1 : format == TN_FILE_PDF ? 2 : format == TN_FILE_DXF ? 3 : 0;
 }
 
 unsigned tn_answer_picture_choice(const char *path)

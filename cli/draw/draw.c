@@ -27,6 +27,7 @@ typedef struct draw_settings {
     bool sheet, before, exploded, sharp, open;
     tn_option_real azimuth, elevation;
     tn_option_number width, max_boxes, grid;
+    int profile;
 } draw_settings;
 
 static const draw_settings *settings_of(const tn_job *job)
@@ -150,6 +151,7 @@ static tn_draw_request asked(const draw_settings *s)
 {
     return (tn_draw_request){
         .format = tn_picture_choice(s->output),
+        .profile = (unsigned)s->profile,
         .subject = tn_job_asked(&s->plans),
         .rules = {s->rules.items, s->rules.count},
         .has_sample = s->sample.given,
@@ -197,7 +199,7 @@ static bool check_options(tn_job *job)
 {
     const draw_settings *s = settings_of(job);
     if (!s->output)
-        tn_job_usage(job, "say which picture to draw: -o FILE.svg, FILE.png or FILE.pdf");
+        tn_job_usage(job, "say which picture to draw: -o FILE.svg, FILE.png, FILE.pdf or FILE.dxf");
     else if (s->sheet + s->before + s->exploded > 1)
         tn_job_usage(job, "one picture shows one thing: give one of --sheet, --before and --exploded");
     else
@@ -253,7 +255,7 @@ static int run(const tn_command *command, const tn_settings *common)
 
 #define SETTINGS draw_settings
 static const tn_option options[] = {
-    OUTPUT(output, TN_WRITES_PICTURES, "the picture: .svg, .png or .pdf"),
+    OUTPUT(output, TN_WRITES_PICTURES | TN_WRITES(DXF), "the picture: .svg, .png or .pdf; of plans also .dxf"),
     LIST("rule", 'r', "NAME", rules, "draw this rule instead of plans; may be repeated"),
     OPTIONS_LIBRARY,
     NUMBER("sample", 0, "N", sample, 1, TN_DRAW_SAMPLE_MAX, "draw N plans sampled from the library"),
@@ -274,6 +276,9 @@ static const tn_option options[] = {
     NUMBER("scale", 0, "N", scale, 1, 1000000, "draw at 1:N (default: the largest usual scale that fits)"),
     NUMBER("columns", 0, "N", columns, 1, 1000, "N plans in a row (default: as many as fit)"),
     NUMBER("dpi", 0, "N", dpi, 10, 2400, "pixels an inch of a PNG (default 150)"),
+    CHOICE("profile", 0, "WORD", profile, "auto|iso|us",
+           "the names of layers of a .dxf: by ISO 13567 (iso) or by the US National CAD Standard (us); by default the "
+           "latter for plans in feet"),
     NUMBER("max-plans", 0, "N", max_plans, 1, 10000000, "the most plans of one drawing (default 5000)"),
     TEXT("surface", 0, "NAME", surface, "of fields: which surface (default: the last)"),
     NUMBER("grid", 'n', "N", grid, 2, 8192,

@@ -1,4 +1,4 @@
-/* Makes pictures as SVG, PNG or PDF: opens what they are written to, and the device that writes them. */
+/* Makes pictures as SVG, PNG, PDF or DXF: opens what they are written to, and the device that writes them. */
 #include "runtime/draw/canvas.h"
 
 #include <stdlib.h>
@@ -6,12 +6,14 @@
 
 #include "runtime/base/file.h"
 #include "runtime/draw/cairo/cairo.h"
+#include "runtime/draw/device/dxf.h"
 #include "runtime/draw/device/svg.h"
 
 enum { DPI_DEFAULT = 150 };
 
 struct tn_canvas {
     tn_canvas_format format;
+    tn_profile profile;
     tn_paint *paint;
     tn_output output; /* of a picture in memory only its stream is used */
     char *path;       /* owned; NULL: in memory */
@@ -44,6 +46,10 @@ static tn_status new_device(const tn_canvas *canvas, const tn_canvas_options *op
         return status;
     if (canvas->format == TN_CANVAS_PDF)
         return tn_pdf_new(out, &by_cairo, canvas->watch, device, error);
+    const tn_dxf_options as_dxf = {options->width, options->height, options->title,
+                                   options->scale, options->feet,   tn_profile_of(canvas->profile, options->feet)};
+    if (canvas->format == TN_CANVAS_DXF)
+        return tn_dxf_new(out, &as_dxf, device, error);
     bool element = canvas->memory && canvas->memory->format == TN_CANVAS_BY_PATH;
     const tn_svg_options as_svg = {options->width, options->height, element, element ? canvas->memory->number : 0};
     return tn_svg_new(out, &as_svg, device, error);
@@ -71,6 +77,7 @@ static tn_status new_in_memory(tn_picture *picture, const tn_canvas_options *opt
     if (!made)
         return tn_fail_memory(error);
     made->format = picture->format == TN_CANVAS_BY_PATH ? TN_CANVAS_SVG : picture->format;
+    made->profile = picture->profile;
     made->memory = picture;
     made->watch = picture->watch;
     made->output.stream = open_memstream(&picture->element, &picture->size);
@@ -80,16 +87,17 @@ static tn_status new_in_memory(tn_picture *picture, const tn_canvas_options *opt
     return tn_fail_memory(error);
 }
 
-static tn_status new_file(const char *path, tn_canvas_format format, const tn_canvas_options *options, tn_watch *watch,
+static tn_status new_file(const tn_picture *picture, tn_canvas_format format, const tn_canvas_options *options,
                           tn_canvas **canvas, tn_error *error)
 {
     tn_canvas *made = calloc(1, sizeof *made);
-    if (!made || !(made->path = strdup(path))) {
+    if (!made || !(made->path = strdup(picture->path))) {
         free(made);
         return tn_fail_memory(error);
     }
     made->format = format;
-    made->watch = watch;
+    made->profile = picture->profile;
+    made->watch = picture->watch;
     tn_status status = tn_output_open(made->path, &made->output, error);
     if (status == TN_OK)
         return start(made, options, canvas, error);
@@ -104,21 +112,22 @@ tn_status tn_canvas_open(tn_picture *picture, const tn_canvas_options *options, 
     tn_status status = tn_picture_format(picture, &format, error);
     if (status != TN_OK)
         return status;
-    return picture->path ? new_file(picture->path, format, options, picture->watch, canvas, error)
+    return picture->path ? new_file(picture, format, options, canvas, error)
                          : new_in_memory(picture, options, canvas, error);
 }
 
 tn_status tn_canvas_begin(tn_picture *picture, double width, double height, const char *title, tn_canvas **canvas,
                           tn_error *error)
 {
-    tn_canvas_options options = {width, height, picture->dpi, title};
+    const tn_canvas_options options = {.width = width, .height = height, .dpi = picture->dpi, .title = title};
     return tn_canvas_open(picture, &options, canvas, error);
 }
 
 tn_status tn_canvas_new(const char *path, tn_canvas_format format, const tn_canvas_options *options, tn_canvas **canvas,
                         tn_error *error)
 {
-    return new_file(path, format, options, NULL, canvas, error);
+    const tn_picture picture = {.path = path};
+    return new_file(&picture, format, options, canvas, error);
 }
 
 bool tn_canvas_stopped(const tn_canvas *canvas)

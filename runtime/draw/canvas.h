@@ -1,8 +1,8 @@
-/* A picture under construction: SVG, PNG or PDF by the file's extension, one tn_paint for all three.
+/* A picture under construction: SVG, PNG, PDF or DXF by the file's extension, one tn_paint for all.
  *
  * Units are points (1/72 inch), y downwards. The file is written beside its target and renamed. The same drawing gives
- * the same bytes: of an SVG on every machine, of the others for one version of cairo and one set of fonts (dates in a
- * PDF are constant). A canvas owns its paint and its file; free it in any case.
+ * the same bytes: of an SVG and a DXF on every machine, of the others for one version of cairo and one set of fonts
+ * (dates in a PDF are constant). A canvas owns its paint and its file; free it in any case.
  */
 #ifndef TARTAN_DRAW_CANVAS_H
 #define TARTAN_DRAW_CANVAS_H
@@ -19,6 +19,8 @@ typedef struct tn_canvas_options {
     double width, height; /* of the first page, in points */
     uint32_t dpi;         /* of a PNG; 0: 150 */
     const char *title;    /* for the file's metadata; or NULL */
+    double scale;         /* 1:scale, of the views (tn_paint_view_begin); 0: there are none */
+    bool feet;            /* it is measured in feet and inches; otherwise metric */
 } tn_canvas_options;
 
 /* Starts a picture. E0902 if the file cannot be written, E0820 if its page or its PNG would be too large, E0907

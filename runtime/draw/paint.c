@@ -671,6 +671,7 @@ void tn_paint_view_begin(tn_paint *paint, const tn_drawn_view *view)
     tn_drawn_view placed = *view;
     double scale = paint->now.axes.scale;
     place(paint, view->x, view->y, &placed.x, &placed.y);
+    place(paint, view->origin[0], view->origin[1], &placed.origin[0], &placed.origin[1]);
     placed.width *= scale;
     placed.height *= scale;
     if (draws(paint) && paint->device->operations->begin_view)

@@ -95,9 +95,9 @@ typedef struct tn_dimension {
  * The text is as it is given: a caller asks tn_paint_text_width whether it has room. */
 void tn_paint_dimension(tn_paint *paint, const tn_dimension *dimension);
 
-/* What is drawn until its end is a drawing to scale, 1:scale of points, within a frame in the state's units: in a DXF
- * it stands in model space at its true size, and a viewport shows it on the sheet. All views of a picture have one
- * scale and one measure, and they do not nest. What is drawn in no view belongs to the sheet. */
+/* What is drawn until its end is a drawing to scale, that of the canvas (its options), with a frame and an origin in the
+ * state's units: in a DXF it stands in model space at its true size, measured from the origin, and a viewport shows it
+ * on the sheet. Views do not nest. What is drawn in none belongs to the sheet. */
 void tn_paint_view_begin(tn_paint *paint, const tn_drawn_view *view);
 void tn_paint_view_end(tn_paint *paint);
 

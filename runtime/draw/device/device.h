@@ -86,12 +86,11 @@ typedef struct tn_symbol_place {
     bool mirrored;
 } tn_symbol_place;
 
-/* A drawing to scale, and its frame on the page. */
+/* A drawing to scale: its frame on the page, and where its own origin stands, from which it is measured. */
 typedef struct tn_drawn_view {
     const char *name;
-    double scale; /* 1:scale */
-    bool feet;    /* measured in feet and inches; otherwise metric */
     double x, y, width, height;
+    double origin[2];
 } tn_drawn_view;
 
 /* A length that is given: its ends, and those of the line that shows it. */

@@ -348,10 +348,13 @@ static void draw_cell(const drawing *d, tn_paint *paint, const tn_drawn_plan *pl
     if (d->roles.to_scale) {
         double left = x + sides_room(d) + (d->roles.public_end == TN_NO_FIELD ? 0 : TN_MARK_ROOM);
         double above = d->extent.above * d->factor, spine = y + above, bottom = spine + d->extent.below * d->factor;
+        const tn_drawn_view view = {plan->number, x, y, d->cell_width, height, {left, spine}};
+        tn_paint_view_begin(paint, &view);
         if (tn_draw_two_sided(&d->roles) && plan->length > 0)
             tn_draw_sides(paint, &d->roles, x, spine, above, bottom - spine);
         tn_draw_plan(paint, &d->roles, plan, d->factor, left, spine, bottom, &d->extent);
         draw_number(d, paint, plan, left, y + height - 2, d->cell_width - (left - x));
+        tn_paint_view_end(paint);
         return;
     }
     draw_table(d, paint, plan, x, y);
@@ -438,7 +441,12 @@ tn_status tn_plans_draw(const tn_schema *schema, const tn_drawn_plan *plans, siz
     if (status != TN_OK)
         return status;
     fit_sheet(&d);
-    tn_canvas_options canvas_options = {d.width, d.height, options->dpi, options->title};
+    const tn_canvas_options canvas_options = {.width = d.width,
+                                              .height = d.height,
+                                              .dpi = options->dpi,
+                                              .title = options->title,
+                                              .scale = d.scale,
+                                              .feet = !is_metric(&d)};
     status = tn_canvas_open(to, &canvas_options, &canvas, error);
     if (status != TN_OK)
         return status;

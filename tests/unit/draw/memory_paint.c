@@ -23,7 +23,7 @@ static void draw_symbol(tn_paint *paint, const void *of)
 static void draw_meanings(tn_paint *paint)
 {
     static const tn_dimension dimension = {{10, 10}, {60, 10}, 8, "50"};
-    static const tn_drawn_view view = {"view", 50, false, 0, 0, 100, 100};
+    static const tn_drawn_view view = {"view", 0, 0, 100, 100, {0, 100}};
     tn_paint_view_begin(paint, &view);
     for (int i = 0; i < 30; i++) {
         char name[16];
@@ -62,9 +62,10 @@ static void draw(tn_paint *paint)
 
 static tn_status make(tn_canvas_format format, tn_error *error)
 {
+    const tn_canvas_options options = {.width = 100, .height = 100, .title = "title", .scale = 50};
     tn_picture picture = {.format = format};
     tn_canvas *canvas = NULL;
-    tn_status status = tn_canvas_begin(&picture, 100, 100, "title", &canvas, error);
+    tn_status status = tn_canvas_open(&picture, &options, &canvas, error);
     if (status == TN_OK) {
         draw(tn_canvas_paint(canvas));
         status = tn_canvas_commit(canvas, error);
@@ -77,7 +78,8 @@ static tn_status make(tn_canvas_format format, tn_error *error)
 
 static void fails_cleanly(void **state)
 {
-    static const tn_canvas_format formats[] = {TN_CANVAS_BY_PATH, TN_CANVAS_SVG, TN_CANVAS_PNG, TN_CANVAS_PDF};
+    static const tn_canvas_format formats[] = {TN_CANVAS_BY_PATH, TN_CANVAS_SVG, TN_CANVAS_PNG, TN_CANVAS_PDF,
+                                               TN_CANVAS_DXF};
     (void)state;
     for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
         size_t failures = 0;
