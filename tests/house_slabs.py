@@ -37,7 +37,7 @@ def length(text):
 
 def read_form(path):
     text = re.sub(r"#.*", "", open(path).read())
-    text = text[re.search(r"\bform \S+ of ", text).start():]
+    text = text[re.search(r'\bform \S+ (?:"[^"]*" )?of ', text).start():]
     size = {word: length(re.search(rf"^\s*{word} (\S+(?: [\d/]+\")?)", text, re.M)[1]) for word in ("wall", "partition", "deck", "roof")}
     levels = [0]
     for high in re.findall(r"^\s*storey \S+ (\S+(?: [\d/]+\")?)", text, re.M):
@@ -73,7 +73,7 @@ class House:
         self.half = self.size["wall"] // 2
         self.tops = [i for i, c in enumerate(self.cells) if not any(
             d["tray"] == c["tray"] and d["zone"] == c["zone"] and d["storey"] > c["storey"] for d in self.cells)]
-        self.feet = {}
+        self.feet, self.ridges = {}, {}
         for s in self.json["solids"]:
             if s["kind"] in ("outside", "party", "partition", "post"):
                 storey = s["of"] if s["kind"] == "post" else self.cells[self.json["faces"][s["of"]]["a"]]["storey"]
@@ -163,13 +163,30 @@ def covering(house, storey, x, y):
     return next((i for i in tops if within(house.grown(i), x, y)), None)
 
 
+def meet_at_ridge(house, face):
+    """Is each roof nowhere higher than all along the face, and neither there as much higher as a slab is thick?"""
+    parts, tops = [F(i, 32) for i in range(33)], []
+    between = lambda r, p, q: (r[0] + (r[1] - r[0]) * p, r[2] + (r[3] - r[2]) * q)
+    for cell in (face["a"], face["b"]):
+        tops.append({house.height(cell, *between(face["at"], p, p)) for p in parts})
+        if len(tops[-1]) > 1 or any(house.height(cell, *between(house.cells[cell]["rect"], p, q)) > min(tops[-1]) for p in parts for q in parts):
+            return False
+    return house.roof(face["a"]).open == house.roof(face["b"]).open and abs(min(tops[0]) - min(tops[1])) < house.size["roof"]
+
+
 def goes_on(house, face):
     """Is below the roof nothing between the two cells of a face?"""
-    if face["b"] is None or house.roof(face["a"]).across:
+    if id(face) not in house.ridges:
+        house.ridges[id(face)] = find_whether_goes_on(house, face)
+    return house.ridges[id(face)]
+
+
+def find_whether_goes_on(house, face):
+    if face["b"] is None or not {face["a"], face["b"]} <= set(house.tops):
         return False
     a, b = house.cells[face["a"]], house.cells[face["b"]]
-    one = a["zone"] == b["zone"] and a["rect"][2:] == b["rect"][2:] and face["a"] in house.tops and face["b"] in house.tops
-    return one and face["kind"] != "party" and (not house.roof(face["a"]).open or face["kind"] == "open")
+    one = a["zone"] == b["zone"] and a["rect"][2:] == b["rect"][2:] and not house.roof(face["a"]).across
+    return (one or meet_at_ridge(house, face)) and face["kind"] != "party" and (not house.roof(face["a"]).open or face["kind"] == "open")
 
 
 def is_wall(house, cell, x, y):

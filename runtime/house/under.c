@@ -20,10 +20,33 @@ static bool is_one_roof(const tn_house *house, const tn_face *face)
            tn_cell_is_top(house, face->second) && !(shape && shape->flags & TN_ROOF_ACROSS);
 }
 
+/* Does the roof of a cell rise to a level line at a face? *at: how high it is there, above its foot. */
+static bool rises_to(const tn_house *house, uint32_t cell, const tn_rectangle *face, tn_fraction *at)
+{
+    tn_slopes slopes = tn_roof_slopes_of(house, cell);
+    tn_fraction end = tn_slopes_at(&slopes, tn_fraction_whole(face->x1), tn_fraction_whole(face->y1), 0),
+                highest = tn_slopes_highest(&slopes, house->cells[cell].at, 0);
+    *at = tn_slopes_at(&slopes, tn_fraction_whole(face->x0), tn_fraction_whole(face->y0), 0);
+    return !tn_fraction_less(*at, highest) && !tn_fraction_less(end, highest);
+}
+
+/* Do two roofs rise to each other, as sheds do to a ridge? If one is higher, it is by less than the slab, so that
+ * nothing is open between them. */
+static bool meet_at_ridge(const tn_house *house, const tn_face *face)
+{
+    int64_t roof = house->form->record->roof;
+    tn_fraction first, second;
+    return face->second != TN_NO_CELL && tn_cell_is_top(house, face->first) && tn_cell_is_top(house, face->second) &&
+           tn_cell_is_open_above(house, face->first) == tn_cell_is_open_above(house, face->second) &&
+           rises_to(house, face->first, &face->at, &first) && rises_to(house, face->second, &face->at, &second) &&
+           tn_fraction_less(first, tn_fraction_raised(second, roof)) &&
+           tn_fraction_less(second, tn_fraction_raised(first, roof));
+}
+
 /* Does nothing stand between both cells below their roof? Two attics are one; two rooms are if their side is open. */
 static bool goes_on(const tn_house *house, const tn_face *face, bool open)
 {
-    return is_one_roof(house, face) && face->kind != TN_FACE_PARTY && (!open || face->kind == TN_FACE_OPEN);
+    return (is_one_roof(house, face) || meet_at_ridge(house, face)) && face->kind != TN_FACE_PARTY && (!open || face->kind == TN_FACE_OPEN);
 }
 
 /* The strips along faces where a wall goes up to the roof, half a wall to either side. */

@@ -162,11 +162,14 @@ typedef struct tn_prism_polygon {
     size_t count;
 } tn_prism_polygon;
 
-/* Where corners of prisms are, in x and in y. Roofs side by side are in one plane; if all that slope are cut at the same
- * places, rounding leaves no slivers between them, and those that meet have whole faces in common. */
+/* Where corners of prisms are, in x and in y, of those that touch one another, directly or by way of others. Roofs side by
+ * side are in one plane; if all that slope are cut at the same places, rounding leaves no slivers between them, and
+ * those that meet have whole faces in common. Others are left whole: each piece of an edge is rounded by itself. */
 typedef struct tn_breaks {
+    uint32_t *cluster; /* [prisms]: the first of those that it belongs with */
     tn_fraction *at[2];
     size_t count[2];
+    double (*bounds)[3][2]; /* [prisms] */
 } tn_breaks;
 
 static int compare(tn_fraction a, tn_fraction b)
@@ -185,23 +188,73 @@ static tn_fraction place_of_exact(const tn_prism_corner *corner, int axis)
     return axis == 0 ? corner->x : corner->y;
 }
 
-static tn_status gather_breaks(const tn_solids *solids, tn_breaks *breaks, tn_error *error)
+static void bound_prism(const tn_solids *solids, const tn_prism *prism, double bounds[3][2])
 {
-    *breaks = (tn_breaks){0};
+    for (int k = 0; k < 3; k++) {
+        bounds[k][0] = INFINITY;
+        bounds[k][1] = -INFINITY;
+    }
+    for (size_t i = 0; i < prism->corner_count; i++) {
+        const tn_prism_corner *c = &solids->corners[prism->corner_first + i];
+        const tn_fraction at[4] = {c->x, c->y, c->low, c->high};
+        for (int k = 0; k < 4; k++)
+            widen(&bounds[k < 3 ? k : 2][0], &bounds[k < 3 ? k : 2][1], tn_fraction_value(at[k]));
+    }
+}
+
+/* A step of rounding apart is still together. */
+static bool touch(double a[3][2], double b[3][2])
+{
+    for (int k = 0; k < 3; k++)
+        if (a[k][0] > b[k][1] + 1 || b[k][0] > a[k][1] + 1)
+            return false;
+    return true;
+}
+
+static uint32_t cluster_of(tn_breaks *breaks, uint32_t prism)
+{
+    while (breaks->cluster[prism] != prism)
+        prism = breaks->cluster[prism] = breaks->cluster[breaks->cluster[prism]];
+    return prism;
+}
+
+static tn_status find_clusters(const tn_solids *solids, tn_breaks *breaks, tn_error *error)
+{
+    breaks->cluster = malloc((solids->prism_count + 1) * sizeof *breaks->cluster);
+    breaks->bounds = malloc((solids->prism_count + 1) * sizeof *breaks->bounds);
+    for (int axis = 0; axis < 2; axis++)
+        breaks->at[axis] = malloc((solids->corner_count + 1) * sizeof *breaks->at[axis]);
+    if (!breaks->cluster || !breaks->bounds || !breaks->at[0] || !breaks->at[1])
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; i < solids->prism_count; i++) {
+        breaks->cluster[i] = i;
+        bound_prism(solids, &solids->prisms[i], breaks->bounds[i]);
+        for (uint32_t k = 0; k < i; k++)
+            if (touch(breaks->bounds[i], breaks->bounds[k])) {
+                uint32_t a = cluster_of(breaks, i), b = cluster_of(breaks, k);
+                breaks->cluster[a > b ? a : b] = a < b ? a : b;
+            }
+    }
+    for (uint32_t i = 0; i < solids->prism_count; i++)
+        breaks->cluster[i] = cluster_of(breaks, i);
+    return TN_OK;
+}
+
+/* Those of the prisms of one cluster. */
+static void gather_breaks(const tn_solids *solids, uint32_t cluster, tn_breaks *breaks)
+{
     for (int axis = 0; axis < 2; axis++) {
-        tn_fraction *at = breaks->at[axis] = malloc((solids->corner_count + 1) * sizeof *at);
-        size_t kept = 0;
-        if (!at)
-            return tn_fail_memory(error);
-        for (size_t i = 0; i < solids->corner_count; i++)
-            at[i] = place_of_exact(&solids->corners[i], axis);
-        qsort(at, solids->corner_count, sizeof *at, by_value);
-        for (size_t i = 0; i < solids->corner_count; i++)
+        tn_fraction *at = breaks->at[axis];
+        size_t found = 0, kept = 0;
+        for (size_t p = cluster; p < solids->prism_count; p++)
+            for (size_t i = 0; breaks->cluster[p] == cluster && i < solids->prisms[p].corner_count; i++)
+                at[found++] = place_of_exact(&solids->corners[solids->prisms[p].corner_first + i], axis);
+        qsort(at, found, sizeof *at, by_value);
+        for (size_t i = 0; i < found; i++)
             if (kept == 0 || compare(at[kept - 1], at[i]) != 0)
                 at[kept++] = at[i];
         breaks->count[axis] = kept;
     }
-    return TN_OK;
 }
 
 static tn_fraction difference(tn_fraction a, tn_fraction b)
@@ -342,14 +395,22 @@ tn_status tn_blocks_of(const tn_house *house, const tn_solids *solids, tn_blocks
     tn_status status = tn_house_leaves(house, &leaves, error);
     *blocks = (tn_blocks){0};
     if (status == TN_OK)
-        status = gather_breaks(solids, &breaks, error);
+        status = find_clusters(solids, &breaks, error);
     for (size_t i = 0; status == TN_OK && i < solids->box_count; i++)
         status = add_box(blocks, &solids->boxes[i], error);
     for (size_t i = 0; status == TN_OK && i < leaves.box_count; i++)
         status = add_box(blocks, &leaves.boxes[i], error);
-    for (size_t i = 0; status == TN_OK && i < solids->prism_count; i++)
-        status = add_prism(blocks, solids, &solids->prisms[i], (double)house->form->record->roof, &breaks, error);
+    for (uint32_t c = 0; status == TN_OK && c < solids->prism_count; c++) {
+        if (breaks.cluster[c] != c)
+            continue;
+        gather_breaks(solids, c, &breaks);
+        for (size_t i = c; status == TN_OK && i < solids->prism_count; i++)
+            if (breaks.cluster[i] == c)
+                status = add_prism(blocks, solids, &solids->prisms[i], (double)house->form->record->roof, &breaks, error);
+    }
     tn_solids_clear(&leaves);
+    free(breaks.cluster);
+    free(breaks.bounds);
     free(breaks.at[0]);
     free(breaks.at[1]);
     return status;
