@@ -49,6 +49,7 @@ EOF
 }
 idle 120 1 0..3
 idle 50 2 0..4
+idle 80 4 1..6
 check 50 1 0..3
 check 50 2 0..3
 check 500 1 0..3

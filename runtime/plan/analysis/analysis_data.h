@@ -56,6 +56,11 @@ tn_status tn_plan_analysis_search(const tn_plan_analysis *analysis, const tn_sea
 tn_status tn_plan_analysis_reduce(const tn_plan_analysis *analysis, const tn_search_part *parts, size_t count,
                                   uint32_t min, uint32_t max, bool *in, tn_error *error);
 
+/* Is there a plan of min..max trays that part i alone does not answer as wanted? TN_LIMIT (E0802) past max_work steps. */
+tn_status tn_plan_analysis_keeps_out(const tn_plan_analysis *analysis, const tn_search_part *parts, size_t count,
+                                     size_t i, uint32_t min, uint32_t max, uint64_t max_work, bool *alone,
+                                     tn_error *error);
+
 /* alone[i], of the parts asked about: is there a plan of min..max trays that part i alone does not answer as wanted? */
 tn_status tn_plan_analysis_needed(const tn_plan_analysis *analysis, const tn_search_part *parts, size_t count,
                                   uint32_t min, uint32_t max, const bool *asked, bool *alone, tn_error *error);

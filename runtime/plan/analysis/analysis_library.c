@@ -49,9 +49,14 @@ static inline uint32_t tn_clauses_longest(const tn_analysed_clauses *c, bool len
 
 /* ---- which clauses are needed */
 
-/* Of finding out whether one clause is needed, before all that are left are asked about together. */
-#define QUICK_WORK UINT64_C(2000000) /* a few milliseconds */
-#define QUICK_CLAUSES 12u
+/* What finding out whether one clause is needed may take: by a search over the clauses side by side; by taking apart
+ * what the clause keeps out; and the same again, of those that are left then, all together at most so much. What is
+ * left after that is asked about together. */
+#define SEARCH_ALONE_WORK UINT64_C(100000)
+#define SEARCH_ALONE_CLAUSES 12u
+#define TAKE_APART_WORK UINT64_C(2000000) /* a few milliseconds */
+#define TAKE_APART_MORE UINT64_C(20000000)
+#define TAKE_APART_MORE_ALL UINT64_C(40000000)
 
 #define FEW_CLAUSES 24u /* what so many alone keep out is made one by one */
 
@@ -127,8 +132,14 @@ static tn_status clauses_exists(const tn_analysed_clauses *c, tn_search_part *pa
     }
 }
 
-/* Is there a plan that this clause alone keeps out? Found quickly, or TN_LIMIT. */
-static tn_status drops_alone(const tn_analysed_clauses *c, size_t i, bool *alone, tn_error *error)
+typedef struct trying {
+    const tn_analysed_clauses *clauses;
+    tn_clause_verdict *verdicts;
+    uint64_t work; /* of each */
+} trying;
+
+/* By a search over all clauses side by side, which finds at once what is near. */
+static tn_status search_alone(const tn_analysed_clauses *c, size_t i, bool *alone, tn_error *error)
 {
     tn_search_part *parts = malloc(c->count * sizeof *parts);
     tn_key word = {0};
@@ -137,31 +148,54 @@ static tn_status drops_alone(const tn_analysed_clauses *c, size_t i, bool *alone
         return tn_fail_memory(error);
     memcpy(parts, c->parts, c->count * sizeof *parts);
     parts[i].accepts = !parts[i].accepts;
-    tn_status status = clauses_exists(c, parts, i, QUICK_WORK, QUICK_CLAUSES, &asked, &word, alone, error);
+    tn_status status =
+        clauses_exists(c, parts, i, SEARCH_ALONE_WORK, SEARCH_ALONE_CLAUSES, &asked, &word, alone, error);
     free(parts);
     free(word.data);
     return status;
 }
 
-typedef struct trying {
-    const tn_analysed_clauses *clauses;
-    tn_clause_verdict *verdicts;
-} trying;
-
-static void try_one(void *context, uint32_t i)
+static void search_one(void *context, uint32_t i)
 {
     const trying *t = context;
     tn_clause_verdict *own = &t->verdicts[i];
-    own->needed = true;
-    if (is_own(t->clauses, i))
-        own->status = drops_alone(t->clauses, i, &own->needed, &own->error);
+    if (own->status == TN_LIMIT)
+        own->status = search_alone(t->clauses, i, &own->needed, &own->error);
 }
 
-/* Clause by clause, as far as that is quick. */
+/* Is there a plan that this clause alone keeps out? TN_LIMIT if that takes more than the work. */
+static void take_one_apart(void *context, uint32_t i)
+{
+    const trying *t = context;
+    const tn_analysed_clauses *c = t->clauses;
+    tn_clause_verdict *own = &t->verdicts[i];
+    if (own->status == TN_LIMIT)
+        own->status = tn_plan_analysis_keeps_out(c->analysis, c->parts, c->count, i, tn_clauses_shortest(c, true),
+                                                 tn_clauses_longest(c, true), t->work, &own->needed, &own->error);
+}
+
+static size_t count_left(const tn_analysed_clauses *c, const tn_clause_verdict *verdicts)
+{
+    size_t left = 0;
+    for (size_t i = 0; i < c->count; i++)
+        left += verdicts[i].status == TN_LIMIT;
+    return left;
+}
+
+/* Clause by clause, as far as that is quick. Clauses of other libraries are needed, whatever they do here. */
 static tn_status try_each(const tn_analysed_clauses *c, tn_clause_verdict *verdicts, tn_error *error)
 {
-    trying t = {c, verdicts};
-    return tn_crew_share(c->analysis->crew, (uint32_t)c->count, try_one, &t, error);
+    trying t = {c, verdicts, TAKE_APART_WORK};
+    for (size_t i = 0; i < c->count; i++)
+        verdicts[i] = (tn_clause_verdict){.status = is_own(c, i) ? TN_LIMIT : TN_OK, .needed = true};
+    tn_status status = tn_crew_share(c->analysis->crew, (uint32_t)c->count, search_one, &t, error);
+    if (status == TN_OK)
+        status = tn_crew_share(c->analysis->crew, (uint32_t)c->count, take_one_apart, &t, error);
+    size_t left = count_left(c, verdicts);
+    if (status != TN_OK || left == 0)
+        return status;
+    t.work = TAKE_APART_MORE_ALL / left < TAKE_APART_MORE ? TAKE_APART_MORE_ALL / left : TAKE_APART_MORE;
+    return tn_crew_share(c->analysis->crew, (uint32_t)c->count, take_one_apart, &t, error);
 }
 
 /* ---- what is left over */
@@ -205,10 +239,8 @@ static tn_status ask_products(const tn_analysed_clauses *c, tn_clause_verdict *v
 
 static tn_status find_verdicts(tn_analysed_clauses *c, tn_clause_verdict *verdicts, tn_error *error)
 {
-    size_t left = 0;
     tn_status status = try_each(c, verdicts, error);
-    for (size_t i = 0; i < c->count; i++)
-        left += verdicts[i].status == TN_LIMIT;
+    size_t left = count_left(c, verdicts);
     if (status != TN_OK || left == 0)
         return status;
     return left <= FEW_CLAUSES ? ask_library(c, verdicts, error) : ask_products(c, verdicts, error);
