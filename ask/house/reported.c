@@ -1,4 +1,5 @@
 /* The page of a library of houses: counts, draws a sample, and hands both to it. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -76,14 +77,19 @@ static tn_status sample(tn_numbered *n, tn_reported_houses *r, size_t wanted, tn
     return r->page.lengths ? tn_numbered_sample(n, NULL, wanted, r->page.seed, false, collect, r, error) : TN_OK;
 }
 
+static void clear_houses(tn_reported_house *houses, size_t count)
+{
+    for (size_t i = 0; houses && i < count; i++) {
+        tn_solids_clear(&houses[i].solids);
+        tn_house_clear(&houses[i].house);
+        free(houses[i].name);
+    }
+    free(houses);
+}
+
 static void clear(const tn_numbered *n, tn_reported_houses *r)
 {
-    for (size_t i = 0; i < r->page.house_count; i++) {
-        tn_solids_clear(&r->houses[i].solids);
-        tn_house_clear(&r->houses[i].house);
-        free(r->houses[i].name);
-    }
-    free(r->houses);
+    clear_houses(r->houses, r->page.house_count);
     tn_integers_free(r->page.lengths, length_count(&r->page));
     tn_integers_free(r->page.kept_out, n->record ? n->record->clause_count : 0);
     tn_integers_free(r->page.alone, n->record ? n->record->clause_count : 0);
@@ -109,6 +115,56 @@ tn_status tn_report_houses(tn_session *session, const tn_library_asked *asked, c
             status = tn_session_fail(session, &error);
     }
     clear(&n, &r);
+    tn_numbered_close(&n);
+    return status;
+}
+
+/* ---- houses that are given */
+
+/* By its number as it was typed, or, of a line, its place among those given. */
+static tn_status name_given(const char *text, size_t number, char **name, tn_error *error)
+{
+    char made[40];
+    snprintf(made, sizeof made, "house %zu", number);
+    *name = strdup(tn_is_house_number(text) ? text : made);
+    return *name ? TN_OK : tn_fail_memory(error);
+}
+
+/* What is wrong is said. */
+static tn_status read_given(tn_numbered *n, const tn_library_asked *asked, const char *text, size_t number,
+                            tn_reported_house *given)
+{
+    tn_error error;
+    if (!tn_is_house_number(text)) {
+        tn_status status = tn_numbered_typed(n, text, tn_asked_length(asked), &given->house);
+        if (status != TN_OK)
+            return status;
+    } else if (tn_numbered_house(n, text, &given->house, &error) != TN_OK) {
+        return tn_session_fail(n->session, &error);
+    }
+    tn_status status = name_given(text, number, &given->name, &error);
+    if (status == TN_OK)
+        status = tn_house_solids(&given->house, &given->solids, &error);
+    return status == TN_OK ? TN_OK : tn_session_fail(n->session, &error);
+}
+
+tn_status tn_report_given_houses(tn_session *session, const tn_library_asked *asked, const char *const *texts,
+                                 size_t count, tn_buffer *page)
+{
+    tn_numbered n = {0};
+    tn_plan none;
+    tn_error error;
+    tn_reported_house *houses = calloc(count + 1, sizeof *houses);
+    if (!houses) {
+        tn_fail_memory(&error);
+        return tn_session_fail(session, &error);
+    }
+    tn_status status = tn_numbered_open_on(&n, session, asked, NULL, &none);
+    for (size_t i = 0; status == TN_OK && i < count; i++)
+        status = read_given(&n, asked, texts[i], i + 1, &houses[i]);
+    if (status == TN_OK && tn_houses_page(session->opened, &n.form, houses, count, page, &error) != TN_OK)
+        status = tn_session_fail(session, &error);
+    clear_houses(houses, count);
     tn_numbered_close(&n);
     return status;
 }

@@ -12,4 +12,8 @@ typedef struct tn_reported {
 tn_status tn_report_houses(tn_session *session, const tn_library_asked *asked, const tn_reported *wanted,
                            tn_buffer *page);
 
+/* Appends the page of those houses, each by its number or its line, side by side if they are several. */
+tn_status tn_report_given_houses(tn_session *session, const tn_library_asked *asked, const char *const *texts,
+                                 size_t count, tn_buffer *page);
+
 #endif

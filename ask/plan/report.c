@@ -105,6 +105,12 @@ static tn_status make_houses(reporting *r)
     return status;
 }
 
+static tn_status make_given(reporting *r)
+{
+    return tn_report_given_houses(r->session, &r->request->subject, r->request->houses.items, r->request->houses.count,
+                                  &r->page);
+}
+
 /* Is the library that is named one of houses; or, where none is, is all that the file itself has one of these? */
 static bool is_about_houses(const reporting *r)
 {
@@ -119,6 +125,15 @@ static bool is_about_houses(const reporting *r)
 static tn_status report_library(reporting *r)
 {
     const tn_ready_library *ready;
+    size_t given = r->request->houses.count;
+    if (given > TN_REPORTED_HOUSES_MAX)
+        return tn_session_refuse(r->session, NULL, "a report shows at most %u houses side by side, not %zu",
+                                 TN_REPORTED_HOUSES_MAX, given);
+    if (given > 0 && r->request->has_sample)
+        return tn_session_refuse(r->session, "leave out one of them",
+                                 "--sample draws houses for a report, and it is to show those that are given");
+    if (given > 0)
+        return write_page(r, make_given);
     if (is_about_houses(r))
         return write_page(r, make_houses);
     tn_status status = tn_session_library(r->session, &r->request->subject, &ready);
@@ -175,17 +190,12 @@ static const char *asked_for(const tn_report_request *request, bool of_kit)
     const struct {
         const char *name;
         bool given, of_kit;
-    } all[] = {{"library", subject->library != NULL, false},
-               {"where", subject->where.count > 0, false},
-               {"trays", subject->has_trays, false},
-               {"max-length", subject->has_max_length, false},
-               {"sample", request->has_sample, false},
-               {"max-states", subject->has_max_states, false},
-               {"threads", subject->has_threads, false},
-               {"pictures", request->has_pictures, true},
-               {"part-limit", request->has_part_limit, true},
-               {"step-limit", request->has_step_limit, true},
-               {"search-limit", request->has_search_limit, true}};
+    } all[] = {{"library", subject->library != NULL, false},   {"where", subject->where.count > 0, false},
+               {"trays", subject->has_trays, false},           {"max-length", subject->has_max_length, false},
+               {"sample", request->has_sample, false},         {"houses", request->houses.count > 0, false},
+               {"max-states", subject->has_max_states, false}, {"threads", subject->has_threads, false},
+               {"pictures", request->has_pictures, true},      {"part-limit", request->has_part_limit, true},
+               {"step-limit", request->has_step_limit, true},  {"search-limit", request->has_search_limit, true}};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         if (all[i].given && all[i].of_kit == of_kit)
             return all[i].name;

@@ -171,6 +171,7 @@ struct tn_session;
 
 /* The most plans, or houses, of a page. */
 #define TN_REPORTED_MAX 2000u
+#define TN_REPORTED_HOUSES_MAX 12u /* that are side by side on a page */
 
 /* The most of the nearest plans that are looked for, and how many are unless more are asked for. */
 #define TN_NEAREST_MAX 1000u

@@ -47,6 +47,7 @@ static void report(tn_job *job)
     const char *output = s->output ? s->output : "-";
     bool folder = !is_page(output) && strcmp(output, "-") != 0;
     const tn_report_request request = {.subject = tn_job_asked(&s->plans),
+                                       .houses = {s->common.operands.items + 1, s->common.operands.count - 1},
                                        .has_sample = s->sample.given,
                                        .sample = s->sample.value,
                                        .seed = s->seed.value,
@@ -106,7 +107,7 @@ static const tn_option options[] = {
 const tn_command tn_command_report = {
     .name = "report",
     .summary = "write a library, or a kit, as an HTML page",
-    .usage = "FILE -o FOLDER\nFILE --library HOUSES -o FOLDER\nFILE.kit [-o PAGE.html]",
+    .usage = "FILE -o FOLDER\nFILE --library HOUSES -o FOLDER\nFILE HOUSE... -o FOLDER\nFILE.kit [-o PAGE.html]",
     .description =
         "Writes one page that needs no server and no network. It begins with a sheet of plans, the brief in figures "
         "(how many plans there are, what is asked for, what each measure comes to), and a chart of each measure. Then "
@@ -114,8 +115,11 @@ const tn_command tn_command_report = {
         "the plans that prove it, and which of its parts the tests notice; and a sample of plans, kept and dropped, "
         "with the reasons, which can be filtered. Warnings of checking and limits are at the end, once.\n\n"
         "Of a library of houses, the page shows how many houses there are and what each clause keeps out; some of the "
-        "houses, drawn; and the form: its storeys, its functions and where they may be, its openings, and its tiles, "
-        "drawn with their boxes.\n\n"
+        "houses, drawn, each with its plans and views, its rooms, its parts and their prices; and the form: its "
+        "storeys, its functions and where they may be, its openings, and its tiles, drawn with their boxes. With "
+        "HOUSE, a line or a number (#P:V or #R), the page is about that house; with several, up to 12, it has them "
+        "side by side: in space, in a table of areas, rooms, choices, measures and prices in which what differs is "
+        "marked, and one by one.\n\n"
         "Of a kit, the page shows its models, each placed with the seed, drawn, measured and held to what it requires; "
         "which connectors join; which rule places which parts; and every part with a picture of its connectors. Limits "
         "keep this short: what could not be placed within them is said on the page, and the exit code is 0.",
@@ -123,8 +127,8 @@ const tn_command tn_command_report = {
     .options = options,
     .option_count = OPTION_COUNT(options),
     .settings_size = sizeof(SETTINGS),
-    .operands = "a FILE",
+    .operands = "a FILE and perhaps houses",
     .operands_min = 1,
-    .operands_max = 1,
+    .operands_max = 1 + TN_REPORTED_HOUSES_MAX,
     .run = run,
 };

@@ -7,7 +7,6 @@
 #include "driver/open/digits.h"
 #include "driver/report/page.h"
 #include "runtime/base/length.h"
-#include "runtime/house/picture/draw.h"
 
 typedef struct tn_house_reporting {
     const tn_house_report *report;
@@ -252,38 +251,6 @@ static bool put_clauses(const tn_house_reporting *r)
 
 /* ---- houses */
 
-static tn_status put_line(tn_house_reporting *r, const tn_reported_house *reported)
-{
-    tn_buffer line = {0};
-    tn_status status = tn_house_write(&reported->house, &line, r->page.error);
-    if (status == TN_OK)
-        status = tn_page_written(&r->page, tn_page_html(&r->page, "<p class=\"line\">") &&
-                                               tn_page_text(&r->page, reported->name) && tn_page_html(&r->page, "  ") &&
-                                               tn_page_text_part(&r->page, line.data, line.size) &&
-                                               tn_page_html(&r->page, "</p>\n"));
-    free(line.data);
-    return status;
-}
-
-/* All to one scale. */
-static tn_status draw_houses(tn_house_reporting *r)
-{
-    const tn_house_report *report = r->report;
-    tn_pictured_house *pictured = calloc(report->house_count, sizeof *pictured);
-    if (!pictured)
-        return tn_fail_memory(r->page.error);
-    for (size_t i = 0; i < report->house_count; i++)
-        pictured[i] =
-            (tn_pictured_house){&report->houses[i].house, &report->houses[i].solids, report->houses[i].name, ""};
-    const tn_house_gallery gallery = {
-        .houses = pictured, .count = report->house_count, .camera = {60, 30, 480}}; /* from the front */
-    tn_picture picture = tn_page_next_picture(&r->page);
-    tn_status status = tn_page_put_picture(&r->page, &picture, "houses of the library",
-                                           tn_house_gallery_draw(&gallery, &picture, r->page.error));
-    free(pictured);
-    return status;
-}
-
 static tn_status put_houses(tn_house_reporting *r)
 {
     const tn_house_report *report = r->report;
@@ -294,9 +261,9 @@ static tn_status put_houses(tn_house_reporting *r)
              : tn_page_html(&r->page, "none is shown</p>\n"));
     tn_status status = tn_page_written(&r->page, good);
     if (status == TN_OK && report->house_count > 0)
-        status = draw_houses(r);
+        status = tn_page_put_gallery(&r->page, report->houses, report->house_count);
     for (size_t i = 0; status == TN_OK && i < report->house_count; i++)
-        status = put_line(r, &report->houses[i]);
+        status = tn_page_put_house(&r->page, &report->houses[i], false);
     return status;
 }
 
@@ -339,8 +306,8 @@ static bool put_head(const tn_house_reporting *r)
            put_layers(r, TN_LAYERED_PARTITION) && tn_page_html(&r->page, ", decks ") &&
            house_put_length(r, form->deck) && put_layers(r, TN_LAYERED_DECK) && tn_page_html(&r->page, ", roofs ") &&
            house_put_length(r, form->roof) && put_layers(r, TN_LAYERED_ROOF) &&
-           tn_page_html(&r->page, ".</p>\n<nav><a href=\"#counts\">Counts</a> <a href=\"#clauses\">Clauses</a> "
-                                  "<a href=\"#houses\">Houses</a> <a href=\"#storeys\">Storeys</a> "
+           tn_page_html(&r->page, ".</p>\n<nav><a href=\"#houses\">Houses</a> <a href=\"#counts\">Counts</a> "
+                                  "<a href=\"#clauses\">Clauses</a> <a href=\"#storeys\">Storeys</a> "
                                   "<a href=\"#functions\">Functions</a> <a href=\"#openings\">Openings</a> "
                                   "<a href=\"#tiles\">Tiles</a> <a href=\"#findings\">Warnings</a></nav>\n");
 }
@@ -348,9 +315,11 @@ static bool put_head(const tn_house_reporting *r)
 tn_status tn_house_report_page(const tn_house_report *report, tn_buffer *page, tn_error *error)
 {
     tn_house_reporting r = {report, report->form->module, {.text = page, .error = error}};
-    tn_status status = tn_page_written(&r.page, put_head(&r) && put_counts(&r) && put_clauses(&r));
+    tn_status status = tn_page_written(&r.page, put_head(&r));
     if (status == TN_OK)
         status = put_houses(&r);
+    if (status == TN_OK)
+        status = tn_page_written(&r.page, put_counts(&r) && put_clauses(&r));
     return status == TN_OK
                ? tn_page_written(&r.page, house_report_form(&r) && tn_page_findings(&r.page, report->opened) &&
                                               tn_page_html(&r.page, "<p class=\"quiet\">") &&

@@ -6,14 +6,7 @@
 
 #include <gmp.h>
 
-#include "driver/open/open.h"
-#include "runtime/house/solids.h"
-
-typedef struct tn_reported_house {
-    tn_house house;
-    tn_solids solids;
-    char *name; /* "#12": its rank */
-} tn_reported_house;
+#include "driver/report/house_page.h"
 
 /* All of it is borrowed. lengths: houses by number of trays, from low to high; kept_out, alone: of the houses that the
  * form allows by each clause, and only by it. NULL: not counted, and `limit` says why. */

@@ -182,6 +182,9 @@ tn_status tn_house_read(const tn_house_form *form, const char *line, size_t size
 tn_status tn_house_read_open(const tn_house_form *form, const char *line, size_t size, size_t max_trays,
                              tn_house *house, tn_error *error);
 
+/* What the section has for a choice of the form: "gable(9:12)". */
+const char *tn_house_option(const tn_house *house, uint32_t choice);
+
 /* Appends the house's line. TN_MEMORY. */
 tn_status tn_house_write(const tn_house *house, tn_buffer *out, tn_error *error);
 

@@ -21,7 +21,7 @@ static void put(const words *to, bool *any, const char *text)
     *any = true;
 }
 
-static const char *value_of(const tn_house *house, uint32_t choice)
+const char *tn_house_option(const tn_house *house, uint32_t choice)
 {
     const tn_module *module = house->form->module;
     return tn_text(
@@ -84,7 +84,7 @@ tn_status tn_house_write(const tn_house *house, tn_buffer *out, tn_error *error)
     tn_plan_write_line(form->schema, house->trays, house->length, out);
     end_part(out, house->length > 0);
     for (uint32_t i = 0; i < form->record->choice_count; i++)
-        put(&to, &any, value_of(house, i));
+        put(&to, &any, tn_house_option(house, i));
     end_part(out, any);
     for (size_t t = 0; t < house->length; t++) {
         tn_buffer_printf(out, "%s", t ? " | " : "");
@@ -108,7 +108,7 @@ tn_status tn_house_write_members(const tn_house *house, tn_json *json, tn_error 
     bool any = false;
     tn_json_object(json, "section");
     for (uint32_t i = 0; i < form->record->choice_count; i++)
-        tn_json_string(json, tn_text(form->module, tn_form_choice(form, i)->name), value_of(house, i));
+        tn_json_string(json, tn_text(form->module, tn_form_choice(form, i)->name), tn_house_option(house, i));
     tn_json_object_end(json);
     tn_json_list(json, "functions");
     for (size_t t = 0; t < house->length; t++) {

@@ -110,4 +110,47 @@ sed -n '/id="limits"/,$p' "$scratch/many/index.html" | grep -q '<li>[0-9]* of [0
 grep -q '<p>short.plan:[0-9]*: W004: <code>pairs</code> matches the same plans as <code>twins</code></p>' "$scratch/short/index.html" ||
     fail 'a finding has no place'
 is 'cards' "$(grep -o 'id="rule-[^"]*"' "$scratch/short/index.html" | tr '\n' ' ')" 'id="rule-total" id="rule-total.2" id="rule-twins" id="rule-pairs" '
+
+# A few houses side by side: the table has what `house` writes of each, and marks what differs. One house: no table.
+golden many_houses 'tartan report cottage '"$(printf '%s ' $(seq 1 13))"' -o x.html'
+golden houses_and_sample "tartan report cottage '#1' --sample 2 -o $scratch/none.html"
+golden no_house "tartan report cottage '#99999999999' -o $scratch/none.html"
+"$TARTAN" sample cottage 3 -l cottages --seed 3 >"$scratch/three"
+i=0
+while read -r house; do
+    i=$((i + 1))
+    "$TARTAN" house cottage "$house" -o "$scratch/$i.csv" -o "$scratch/$i.parts.csv" >/dev/null
+    printf '%s\0' "$house"
+done <"$scratch/three" >"$scratch/three.0"
+xargs -0 "$TARTAN" report cottage -l cottages -o "$scratch/three.html" <"$scratch/three.0"
+"$TARTAN" report cottage "$(head -n 1 "$scratch/three")" -o "$scratch/one.html"
+grep -q 'class="compared"' "$scratch/one.html" && fail 'one house is compared'
+grep -q '<h4>Parts and prices</h4>' "$scratch/one.html" || fail 'a house has no prices'
+python3 - "$scratch" <<'PYTHON' || fail 'houses side by side are not as they should be'
+import csv, re, sys
+
+page = open(f"{sys.argv[1]}/three.html").read()
+lines = open(f"{sys.argv[1]}/three").read().splitlines()
+table = page[page.index('<table class="compared">'):page.index('id="houses"')]
+rows = {}
+for mark, name, cells in re.findall(r"<tr( class=\"differs\")?><th>(.*?)</th>(.*?)</tr>", table)[1:]:
+    rows[name] = re.findall(r"<td[^>]*>(.*?)</td>", cells)
+    assert len(rows[name]) == 3 and bool(mark) == (len(set(rows[name])) > 1), (name, rows[name])
+for i in range(3):
+    rooms = list(csv.DictReader(open(f"{sys.argv[1]}/{i + 1}.csv")))
+    parts = list(csv.DictReader(open(f"{sys.argv[1]}/{i + 1}.parts.csv")))
+    near = lambda name, value: abs(float(rows[name][i]) - value) < 0.006
+    assert int(rows["rooms"][i]) == len(rooms)
+    assert near("net sf", sum(float(r["net_sf"]) for r in rooms)) and near("gross sf", sum(float(r["gross_sf"]) for r in rooms))
+    assert near("glazed sf", sum(float(r["glazed_sf"]) for r in rooms)) and near("price", float(parts[-1]["cost"]))
+    for function in ("living", "kitchen", "bath", "bedroom", "stair"):
+        of = [float(r["net_sf"]) for r in rooms if r["function"] == function]
+        assert int(rows[f"{function} rooms"][i]) == len(of) and near(f"{function} net sf", sum(of)), function
+    assert int(rows["bedrooms"][i]) == sum(r["function"] == "bedroom" for r in rooms)
+    plan, section, *_ = lines[i].split(" ; ")
+    assert rows["plan"][i].replace("&quot;", '"') == plan and rows["section"][i] == section
+    assert lines[i].split(" ; ")[1].split()[2] == rows["body roof"][i]
+assert page.count('<section class="card house">') == 3 and page.count("<h4>Rooms</h4>") == 3
+assert page.count("<svg") >= 4, page.count("<svg")
+PYTHON
 finish
