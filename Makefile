@@ -15,7 +15,7 @@ help:
 	@echo 'make demo        build tartan, count a plan library, draw a sheet of it (into demo/)'
 	@echo 'make check       build everything and run every test'
 	@echo 'make check-long  run the tests that take long, which make check leaves out'
-	@echo 'make check-parts build without pictures, OpenMesh and SQLite, and test that'
+	@echo 'make check-parts build without pictures, OpenMesh, SQLite and CaDiCaL, and test that'
 	@echo 'make package     make a Debian package (into build-package/)'
 	@echo 'make check-package  try that on a clean root (as root, with debootstrap)'
 	@echo 'make check-editor  test the language server and the VS Code extension (needs node and npm)'

@@ -1,10 +1,15 @@
 # Makes of the installed files what Debian wants to have, before cpack packs them: a copyright file, compressed manual pages and changes, archives
 # without debugging symbols, and zsh's completion where Debian's zsh looks. A folder for each package, called by its component.
+set(cadical /usr/share/doc/libcadical-dev/copyright)
 function(finish root name)
   set(share ${root}/usr/share)
   set(doc ${share}/doc/${name})
   file(READ ${doc}/LICENSE license)
   file(WRITE ${doc}/copyright "This is Tartan, a rule-authoring language toolchain, packaged by its authors.\n\n${license}")
+  if(EXISTS ${cadical}) # which is linked statically
+    file(READ ${cadical} notice)
+    file(APPEND ${doc}/copyright "\nIt holds CaDiCaL:\n\n${notice}")
+  endif()
   file(REMOVE ${doc}/LICENSE)
   file(RENAME ${doc}/CHANGELOG.md ${doc}/changelog)
   file(GLOB pages ${share}/man/man*/*.[1-9])

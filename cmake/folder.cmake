@@ -3,7 +3,7 @@
 # USES names the folders whose headers it may include; docs/internals.md has the same table, and tests/structure.py holds both to the
 # includes. The archives let a test link what it tests and nothing else; the libraries that are installed are made of their objects.
 #
-# A folder of an optional part (DRAW, MESH, STORE) has a file loaded.c, whose functions find the others in the part's shared library while the
+# A folder of an optional part (DRAW, MESH, STORE, SEARCH) has a file loaded.c, whose functions find the others in the part's shared library while the
 # program runs. A target with the property TARTAN_LOADS_PARTS links that file in place of the others; every target does where TARTAN_WITH_<PART>
 # is off, and then nothing is found and what is missing is said (runtime/base/part.h).
 set_property(GLOBAL PROPERTY TARTAN_FOLDERS "")

@@ -5,6 +5,7 @@
 #   libtartan-mesh     mesh files and algorithms, by OpenMesh
 #   libtartan-draw     pictures: SVG by itself, PNG and PDF by cairo
 #   libtartan-store    plan libraries and runs in databases, by SQLite
+#   libtartan-search   the solver that plans are searched with, CaDiCaL
 #   libtartan          compiles, and links all of those
 #
 # What they call of one another is theirs alone: the symbols are of version TARTAN_PRIVATE and change without notice.
@@ -69,6 +70,8 @@ foreach(folder ${folders})
   endif()
   if(folder MATCHES "^(lsp|studio-.*)$") # of programs alone
     continue()
+  elseif(folder STREQUAL "runtime-plan-search") # asked by what libtartan has alone
+    list(APPEND TARTAN_COMPILER_FOLDERS ${folder})
   elseif(folder MATCHES "^(runtime-(draw|chart|scene)|api-draw$)|-picture$") # an SVG needs no part
     list(APPEND TARTAN_DRAW_FOLDERS ${folder})
   elseif(part AND TARTAN_WITH_${part})
@@ -105,6 +108,10 @@ if(TARTAN_WITH_STORE)
   tartan_library(tartan-store FOLDERS ${TARTAN_STORE_FOLDERS} USES tartan-runtime NEEDS PkgConfig::SQLITE PkgConfig::GMP PkgConfig::XXHASH
     MODULES sqlite3)
   list(APPEND parts tartan-store)
+endif()
+if(TARTAN_WITH_SEARCH)
+  tartan_library(tartan-search FOLDERS ${TARTAN_SEARCH_FOLDERS} USES tartan-runtime NEEDS ${TARTAN_CADICAL} FLAGS ${TARTAN_CADICAL})
+  list(APPEND parts tartan-search)
 endif()
 tartan_library(tartan FOLDERS ${TARTAN_COMPILER_FOLDERS} USES ${parts} tartan-growth tartan-runtime
   NEEDS PkgConfig::JANSSON PkgConfig::GMP PkgConfig::XXHASH PkgConfig::ZSTD ${threads} MODULES jansson libzstd)

@@ -6,6 +6,7 @@
 
 #include "ask/place/kit.h"
 #include "ask/plan/plan_rows.h"
+#include "ask/plan/searched.h"
 #include "ask/session/questions.h"
 #include "driver/open/digits.h"
 #include "runtime/house/house.h"
@@ -137,16 +138,104 @@ static tn_status enumerate(enumeration *e, tn_reply *answer)
     return tn_finds_end(&finds, status, &error);
 }
 
+/* ---- plans that are searched: how many there are is not known, so ranks are counted on the way */
+
+typedef struct searching {
+    enumeration *e;
+    tn_plan_search *search;
+    bool bounded; /* by a rank after the last */
+    bool ended;   /* there is no plan any more */
+} searching;
+
+static tn_status give_searched(const searching *s, tn_finds *finds, const mpz_t rank, const tn_tray *trays,
+                               uint32_t length, tn_error *error)
+{
+    enumeration *e = s->e;
+    bool wanted = true;
+    tn_status status = e->request->mirror ? tn_searched_mirror_first(s->search, trays, length, &wanted, error) : TN_OK;
+    if (status != TN_OK || !wanted)
+        return status;
+    e->given++;
+    return tn_finds_give(finds, &(tn_found_one){.rank = rank, .trays = trays, .length = length}, error);
+}
+
+/* Plans before the first rank that is asked for are found, too, and not given. */
+static tn_status search_plans(searching *s, tn_finds *finds, tn_error *error)
+{
+    enumeration *e = s->e;
+    mpz_t rank;
+    mpz_init(rank);
+    tn_status status = TN_OK;
+    while (status == TN_OK && !is_done(e) && !(s->bounded && mpz_cmp(rank, e->to) >= 0)) {
+        const tn_tray *trays;
+        uint32_t length;
+        status = tn_plan_search_next(s->search, &trays, &length, error);
+        s->ended = status == TN_OK && !trays;
+        if (status != TN_OK || s->ended)
+            break;
+        if (mpz_cmp(rank, e->rank) >= 0)
+            status = give_searched(s, finds, rank, trays, length, error);
+        mpz_add_ui(rank, rank, 1);
+    }
+    if (s->ended && mpz_sgn(rank) > 0 && mpz_cmp(rank, e->rank) <= 0)
+        note_end(e->session, rank, "plans", e->request->from);
+    if (mpz_cmp(rank, e->rank) > 0)
+        mpz_set(e->rank, rank);
+    mpz_clear(rank);
+    return status;
+}
+
+static tn_status list_searched(searching *s, tn_reply *answer, tn_error *error)
+{
+    enumeration *e = s->e;
+    tn_found_of of = {.plans = e->ready, .from = e->rank, .to = s->bounded ? e->to : NULL};
+    tn_finds finds = {.session = e->session, .of = &of, .answer = answer, .lines = e->request->lines};
+    tn_status status = tn_finds_begin(&finds, error);
+    if (status == TN_OK && !finds.ended) {
+        e->given = of.before;
+        status = search_plans(s, &finds, error);
+    }
+    tn_found_plans *plans = TN_REPLY(found_plans, answer);
+    if (status == TN_OK && plans) {
+        plans->has_next = !s->ended && !(s->bounded && mpz_cmp(e->rank, e->to) >= 0);
+        mpz_set(plans->next, e->rank);
+    }
+    return tn_finds_end(&finds, status, error);
+}
+
+static tn_status enumerate_searched(enumeration *e, const tn_error *limit, tn_reply *answer)
+{
+    const tn_enumerate_request *request = e->request;
+    const tn_search_options options = tn_asked_search(&request->subject, &request->search);
+    searching s = {.e = e, .bounded = request->to && *request->to};
+    tn_error error;
+    asked_rank(request->from, e->to, e->rank); /* `to` is 0 yet */
+    asked_rank(request->to, e->to, e->to);
+    if (s.bounded && mpz_cmp(e->rank, e->to) > 0)
+        return refuse_range(e->session, request->from, request->to);
+    tn_searched_note(e->session, limit);
+    tn_status status = tn_plan_search_new(e->ready->schema, e->ready->index, &options, &s.search, &error);
+    if (status != TN_OK)
+        return tn_session_fail(e->session, &error);
+    status = list_searched(&s, answer, &error);
+    tn_plan_search_free(s.search);
+    return status;
+}
+
+/* In how many ways plans are derived is found by the library's automaton alone. */
 static tn_status enumerate_plans(tn_session *session, const tn_enumerate_request *request, tn_reply *answer)
 {
     enumeration e = {.session = session, .request = request, .limit = enumerate_limit(session, request)};
-    tn_status status = tn_session_library(session, &request->subject, &e.ready);
+    tn_error limit;
+    tn_status status = request->ways ? tn_session_library(session, &request->subject, &e.ready)
+                                     : tn_session_searched(session, &request->subject, &e.ready, &limit);
     if (status != TN_OK)
         return status;
     mpz_inits(e.rank, e.to, NULL);
-    status = tn_asked_range(session, e.ready->library, request->from, request->to, e.rank, e.to);
+    if (e.ready->library)
+        status = tn_asked_range(session, e.ready->library, request->from, request->to, e.rank, e.to);
     if (status == TN_OK)
-        status = enumerate(&e, answer);
+        status = e.ready->library ? enumerate(&e, answer) : enumerate_searched(&e, &limit, answer);
     mpz_clears(e.rank, e.to, NULL);
     return status;
 }

@@ -187,8 +187,9 @@ static bool is_kept(const tn_session *session, const char *name, const tn_librar
                 : session->only_one;
 }
 
+/* limit: as in tn_library_ready_or_searched; NULL: it is not searched. */
 static tn_status make_ready(tn_session *session, const char *name, const tn_library_options *options,
-                            const tn_ready_library **ready)
+                            const tn_ready_library **ready, tn_error *limit)
 {
     *ready = &session->library;
     if (is_kept(session, name, options))
@@ -197,7 +198,9 @@ static tn_status make_ready(tn_session *session, const char *name, const tn_libr
     session->options = *options;
     session->only_one = !name;
     tn_session_begins(session, "clauses combined");
-    tn_status status = tn_library_ready(session->opened, name, options, &session->library);
+    tn_status status =
+        limit ? tn_library_ready_or_searched(session->opened, name, options, &session->library, limit)
+              : tn_library_ready(session->opened, name, options, &session->library);
     tn_session_ends(session);
     return status;
 }
@@ -205,19 +208,26 @@ static tn_status make_ready(tn_session *session, const char *name, const tn_libr
 tn_status tn_session_library(tn_session *session, const tn_library_asked *asked, const tn_ready_library **ready)
 {
     const tn_library_options options = tn_asked_options(asked);
-    return make_ready(session, asked->library, &options, ready);
+    return make_ready(session, asked->library, &options, ready, NULL);
+}
+
+tn_status tn_session_searched(tn_session *session, const tn_library_asked *asked, const tn_ready_library **ready,
+                              tn_error *limit)
+{
+    const tn_library_options options = tn_asked_options(asked);
+    return make_ready(session, asked->library, &options, ready, limit);
 }
 
 tn_status tn_session_counted(tn_session *session, const tn_library_asked *asked, const tn_ready_library **ready)
 {
     tn_library_options options = tn_asked_options(asked);
     options.only_counted = true;
-    return make_ready(session, asked->library, &options, ready);
+    return make_ready(session, asked->library, &options, ready, NULL);
 }
 
 tn_status tn_session_generated(tn_session *session, const tn_library_asked *asked, const tn_ready_library **ready)
 {
     tn_library_options options = tn_asked_options(asked);
     options.all_generated = true;
-    return make_ready(session, asked->library, &options, ready);
+    return make_ready(session, asked->library, &options, ready, NULL);
 }

@@ -155,6 +155,7 @@ typedef struct enumerate_settings {
     tn_option_number limit;
     bool mirror, ways, rows;
     tn_kit_options kit;
+    tn_search_settings search;
 } enumerate_settings;
 
 static const enumerate_settings *settings_of(const tn_job *job)
@@ -207,6 +208,7 @@ static tn_enumerate_request request_of(const enumerate_settings *s)
                                   .mirror = s->mirror,
                                   .ways = s->ways,
                                   .plans = s->rows,
+                                  .search = tn_search_settings_asked(&s->search),
                                   .kit = tn_kit_options_asked(&s->kit)};
 }
 
@@ -298,6 +300,7 @@ static const tn_option options[] = {
     FLAG("resume", 0, written.resume, "continue a database that was interrupted; no plan is left out or written twice"),
     OPTION_LDRAW,
     OPTIONS_LIBRARY_LIMITS,
+    OPTIONS_SEARCH,
 };
 
 const tn_command tn_command_enumerate = {
@@ -310,7 +313,9 @@ const tn_command tn_command_enumerate = {
         "Writes the plans of the library in the order of their ranks: by the number of trays, then tray by tray. "
         "--from and --to choose a part; ranks may have any number of digits. A database (-o FILE.sqlite) is "
         "written in batches that survive a crash, and --resume continues it. If any other output is interrupted, "
-        "the plans written so far are kept, and a note says from which rank to continue.\n\n"
+        "the plans written so far are kept, and a note says from which rank to continue. If the library's automaton "
+        "passes a limit, its plans are found one after another by search, in the same order; --from then takes as long "
+        "as finding those before.\n\n"
         "With --library HOUSES, or --plan, houses are written, plan by plan: as house lines, JSON, CSV, or into a "
         "database. Ranks are then among all houses of the library, or among those on the plan.\n\n"
         "Of a kit (docs/kit-language.md) it lists the buildings that `tartan count` counts, a line for each: its parts "

@@ -87,16 +87,17 @@ static bool open_plans(tn_found_rows *rows)
     snprintf(command, sizeof command, "%s%s%s%s%s", rows->made, settings->columns ? " --columns" : "",
              rows->of.ways ? " --ways" : "", rows->of.rows ? " --plans" : "", rows->of.weight ? " (by weight)" : "");
     tn_provenance_describe(&rows->job->opened, ready, rows->job->settings->operands.items[0], command, &described);
+    bool counted = rows->of.rows || ready->library;
     if (rows->of.rows)
         mpz_set(ranks, rows->of.rows);
-    else
+    else if (ready->library)
         tn_library_kept(ready->library, TN_ALL_LENGTHS, ranks);
     const tn_row_source source = {.schema = ready->schema,
                                   .metadata = &described.metadata,
                                   .rows = rows->of.rows   ? &stands
                                           : rows->of.ways ? &ways
                                                           : NULL,
-                                  .ranks = ranks};
+                                  .ranks = counted ? ranks : NULL};
     bool opened = job_row_writer(rows->job, settings, &source, &rows->writer);
     mpz_clear(ranks);
     return opened;

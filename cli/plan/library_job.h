@@ -63,6 +63,29 @@ typedef struct tn_plan_settings {
 /* What most commands about libraries take: which library, and within which limits. */
 #define OPTIONS_LIBRARY OPTION_LIBRARY, OPTION_WHERE, OPTION_SET
 #define OPTIONS_LIBRARY_LIMITS OPTION_TRAYS, OPTION_MAX_LENGTH, OPTION_MAX_STATES, OPTION_THREADS(plans.threads)
+
+/* What searching may take, for commands that search a library whose automaton passes a limit. Commands embed it as `search`. */
+typedef struct tn_search_settings {
+    tn_option_number max_conflicts, max_gates;
+} tn_search_settings;
+
+#define OPTIONS_SEARCH                                                                                                 \
+    NUMBER("max-conflicts", 0, "N", search.max_conflicts, 1, INT32_MAX,                                                \
+           "of a library that is searched, since its automaton passes a limit: the most conflicts on the way to one "  \
+           "answer of the solver (default 1000000)"),                                                                  \
+        NUMBER("max-gates", 0, "N", search.max_gates, 1, 1u << 30,                                                     \
+               "of a library that is searched: the most gates that a clause is made into; one with more is judged "    \
+               "plan by plan (default 4194304)")
+
+/* The same as part of a request. */
+static inline tn_search_asked tn_search_settings_asked(const tn_search_settings *settings)
+{
+    return (tn_search_asked){.has_max_conflicts = settings->max_conflicts.given,
+                             .max_conflicts = settings->max_conflicts.value,
+                             .has_max_gates = settings->max_gates.given,
+                             .max_gates = settings->max_gates.value};
+}
+
 #define OPTION_ENGINE                                                                                                  \
     CHOICE(                                                                                                            \
         "engine", 0, "ENGINE", engine, "auto|vm|dfa",                                                                  \

@@ -7,6 +7,7 @@
 #include "driver/house/judge.h"
 #include "runtime/base/nearest.h"
 #include "runtime/plan/measure/named.h"
+#include "runtime/plan/search/search.h"
 
 /* ---- makes rules of a library's clauses, and tells which of them drop a plan */
 
@@ -306,8 +307,8 @@ tn_status tn_house_measure_choose(tn_opened *opened, const char *name, uint32_t 
     return status;
 }
 
-tn_status tn_library_ready(tn_opened *opened, const char *name, const tn_library_options *options,
-                           tn_ready_library *ready)
+/* Chooses a library and makes its schema ready. */
+static tn_status ready_schema(tn_opened *opened, const char *name, tn_ready_library *ready)
 {
     tn_error error;
     *ready = (tn_ready_library){0};
@@ -316,10 +317,40 @@ tn_status tn_library_ready(tn_opened *opened, const char *name, const tn_library
         return status;
     ready->record = &opened->module->LIBRARY_records[ready->index];
     status = tn_schema_new(opened->module, ready->record->schema, 0, &ready->schema, &error);
-    if (status == TN_OK && options)
-        status = tn_library_new(ready->schema, ready->index, options, &ready->library, &error);
     if (status != TN_OK)
         tn_finding_error(opened, &error);
+    return status;
+}
+
+tn_status tn_library_ready(tn_opened *opened, const char *name, const tn_library_options *options,
+                           tn_ready_library *ready)
+{
+    tn_error error;
+    tn_status status = ready_schema(opened, name, ready);
+    if (status != TN_OK || !options)
+        return status;
+    status = tn_library_new(ready->schema, ready->index, options, &ready->library, &error);
+    if (status != TN_OK)
+        tn_finding_error(opened, &error);
+    return status;
+}
+
+tn_status tn_library_ready_or_searched(tn_opened *opened, const char *name, const tn_library_options *options,
+                                       tn_ready_library *ready, tn_error *limit)
+{
+    tn_status status = ready_schema(opened, name, ready);
+    if (status != TN_OK)
+        return status;
+    status = tn_library_new(ready->schema, ready->index, options, &ready->library, limit);
+    bool states = status == TN_LIMIT && limit->code == E_TOO_MANY_STATES;
+    if (states && tn_plan_search_is_there())
+        return TN_OK;
+    if (status != TN_OK)
+        tn_finding_error(opened, limit);
+    if (states)
+        tn_report_bare(&opened->compilation.diagnostics, TN_NOTE, TN_CODE_NONE,
+                       "a tartan that was built with the part `search` (CaDiCaL, libcadical-dev) finds plans of such a "
+                       "library by searching");
     return status;
 }
 

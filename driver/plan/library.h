@@ -41,12 +41,17 @@ typedef struct tn_ready_library {
     uint32_t index; /* of the LIBRARY record */
     const tn_library_record *record;
     tn_schema *schema;
-    tn_library *library; /* NULL where only the schema was asked for */
+    tn_library *library; /* NULL where only the schema was asked for, or what is asked is searched */
 } tn_ready_library;
 
 /* Chooses a library and makes its schema ready, and, where `options` is not NULL, its automaton. */
 tn_status tn_library_ready(tn_opened *opened, const char *name, const tn_library_options *options,
                            tn_ready_library *ready);
+/* The same for who can do without the automaton, by searching (runtime/plan/search/search.h): where it passes a limit
+ * of states, ready->library is NULL, and *limit says which. Without a solver that fails as above, and names the part.
+ */
+tn_status tn_library_ready_or_searched(tn_opened *opened, const char *name, const tn_library_options *options,
+                                       tn_ready_library *ready, tn_error *limit);
 void tn_library_close(tn_ready_library *ready);
 
 /* The SCHEMA record to read plans with: of the library named, or of the only one of the file itself, or else the only

@@ -12,7 +12,8 @@ static void describe(const tn_opened *opened, const tn_library *library, const c
     const tn_module *module = opened->module;
     const tn_producer_record *producer = module->PRODUCER_count ? &module->PRODUCER_records[0] : NULL;
     *provenance = (tn_provenance){0};
-    tn_library_hash(library, provenance->library_hash);
+    if (library)
+        tn_library_hash(library, provenance->library_hash);
     tn_opened_params_text(opened, provenance->params, sizeof provenance->params);
     if (producer)
         snprintf(provenance->rules_hash, sizeof provenance->rules_hash, "%016" PRIx64,
@@ -30,6 +31,8 @@ void tn_provenance_describe(const tn_opened *opened, const tn_ready_library *rea
                             const char *command, tn_provenance *provenance)
 {
     describe(opened, ready->library, tn_text(opened->module, ready->record->name), rules_path, command, provenance);
+    if (!ready->library)
+        snprintf(provenance->library_hash, sizeof provenance->library_hash, "-%s", provenance->rules_hash);
 }
 
 void tn_provenance_describe_houses(const tn_opened *opened, const tn_library *plans, const char *name,

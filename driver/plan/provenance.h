@@ -15,7 +15,7 @@ typedef struct tn_provenance {
     tn_plan_metadata metadata; /* points into this: never copy it */
 } tn_provenance;
 
-/* `rules_path`: as the command line named it. `command`: what was asked for, in words that decide the result. */
+/* Of a library that is searched, the hash is that of the rule files. `rules_path`: as the command line named it. `command`: what was asked for, in words that decide the result. */
 void tn_provenance_describe(const tn_opened *opened, const tn_ready_library *ready, const char *rules_path,
                             const char *command, tn_provenance *provenance);
 

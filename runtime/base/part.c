@@ -1,6 +1,6 @@
 #include "runtime/base/part.h"
 
-#define SOME_PART (TARTAN_WITH_DRAW || TARTAN_WITH_MESH || TARTAN_WITH_STORE)
+#define SOME_PART (TARTAN_WITH_DRAW || TARTAN_WITH_MESH || TARTAN_WITH_STORE || TARTAN_WITH_SEARCH)
 #if SOME_PART
 #include <assert.h>
 #include <dlfcn.h>
@@ -19,6 +19,8 @@ static const struct {
                       "libopenmesh1"},
     [TN_WITH_STORE] = {TARTAN_WITH_STORE, "store", FILE_OF("store"), "TARTAN_WITH_STORE", "SQLite", "libsqlite3-dev",
                        "libsqlite3-0"},
+    [TN_WITH_SEARCH] = {TARTAN_WITH_SEARCH, "search", FILE_OF("search"), "TARTAN_WITH_SEARCH", "CaDiCaL",
+                        "libcadical-dev", "which libtartan-search holds"},
 };
 
 const char *tn_part_version(void)

@@ -1,9 +1,9 @@
-/* Optional parts: what draws, reworks meshes and keeps databases by libraries of others.
+/* Optional parts: what draws, reworks meshes, keeps databases and searches by libraries of others.
  *
  * A build may leave a part out (TARTAN_WITH_DRAW and so on). A program may leave it out of itself, too, and load it
  * when it is first needed (TARTAN_LOAD_PARTS): looking up the symbols of cairo, OpenMesh and SQLite takes three
  * quarters of the time that a small command takes. The part is then the shared library that is installed beside the
- * program: libtartan-draw, libtartan-mesh, libtartan-store.
+ * program: libtartan-draw, libtartan-mesh, libtartan-store, libtartan-search.
  *
  * A folder that is a part has a file loaded.c, which is linked in place of the others in both cases
  * (cmake/folder.cmake). Its functions find the real ones by their names, or fail. */
@@ -12,7 +12,7 @@
 
 #include "runtime/base/error.h"
 
-typedef enum tn_optional_part { TN_WITH_DRAW, TN_WITH_MESH, TN_WITH_STORE } tn_optional_part;
+typedef enum tn_optional_part { TN_WITH_DRAW, TN_WITH_MESH, TN_WITH_STORE, TN_WITH_SEARCH } tn_optional_part;
 
 /* TN_INVALID (E0907): names the part, what wants it ("drawing pictures"), and how to get it. */
 tn_status tn_part_absent(tn_optional_part part, const char *wanted, tn_error *error);

@@ -37,6 +37,15 @@ for picture in sheet house surface tree histogram; do
 done
 part mesh grow square -n 1 -o "$scratch/surface.stl"
 part mesh grow square -n 1 --smooth 2 -o "$scratch/smooth.obj"
+printf 'schema s { use = a | b }\nlibrary rows using s { trays 3 require quantity(tray(a)) = 2 }\n' >"$scratch/rows.plan"
+if grep -q '^TARTAN_WITH_SEARCH:BOOL=ON' "$cache"; then
+    [ "$("$TARTAN" enumerate "$scratch/rows.plan" --max-states 1 2>/dev/null | wc -l)" = 3 ] || { echo 'search finds other plans'; exit 1; }
+else
+    status=0
+    "$TARTAN" enumerate "$scratch/rows.plan" --max-states 1 >/dev/null 2>"$scratch/said" || status=$?
+    [ "$status" = 4 ] && grep -q 'error\[E0802\]' "$scratch/said" && grep -q 'libcadical-dev' "$scratch/said" ||
+        { echo "without search, a limit of states says: $(cat "$scratch/said")"; exit 1; }
+fi
 part store sample lahave-houses 3 --seed 7 -o "$scratch/sample.sqlite"
 printf "grammar \"words\"\nproblem word \"tartan\"\npopulation 4\ngenerations 1\n" >"$scratch/word.study"
 part store evolve examples/breeding-surfaces/breed.study -o "$scratch/run" --generations 0

@@ -17,6 +17,7 @@ from source import Source
 from subject import Subject
 
 LISTED = 3000            # no more plans or houses than this are listed
+SEARCHED = 50            # plans are found by search
 
 
 class PlanSubject(Subject):
@@ -461,7 +462,15 @@ def limits(subject):
         same(f"{limit[0]} leaves whole lines", written[-1:] in ("", "\n"), True)
 
 
+def searched(subject):
+    """Where the automaton passes a limit, plans are found by search: the same ones, in the same order; none, where there is none."""
+    if subject.houses or subject.lines is None:
+        return
+    first = [line for i, line in enumerate(subject.lines) if i < SEARCHED]
+    same("enumerate by search", subject.ask("enumerate", "--max-states", "1", "--limit", str(SEARCHED)).split("\n")[:-1], first)
+
+
 QUICK = [counted_ways, by_length]              # asked of every library; of those that follow some are chosen
 OF_FILES = [loads, file_questions.keeps_its_meaning, says_json]
 OF_LIBRARIES = [by_measures, written_by_name, questions_and_denials, ranks, samples, all_explained, explained_where, both_engines, fronts, mirrored,
-                effects, compared, threads, saved, limits, prolog, regex, c_interface, c_ask, solids, swings, bills, tested, set_as_written]
+                effects, compared, threads, saved, limits, searched, prolog, regex, c_interface, c_ask, solids, swings, bills, tested, set_as_written]

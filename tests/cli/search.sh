@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# Needs the parts: search
+# Plans of libraries whose automata pass a limit are found by search: those that the automaton has, in their order.
+name=search
+. "$(dirname "$0")/golden.bash"
+
+# langford N: each number twice, with as many trays between as it says.
+langford() {
+    local i numbers=n1
+    for ((i = 2; i <= $1; i++)); do numbers+=" | n$i"; done
+    printf 'schema s { number = %s }\nlibrary langford using s {\n  trays %d\n' "$numbers" $((2 * $1))
+    for ((i = 1; i <= $1; i++)); do
+        printf '  require quantity(tray(n%d)) = 2\n  require neighbour(tray(n%d), repeat(any, %d), tray(n%d))\n' $i $i $i $i
+    done
+    printf '}\n'
+}
+
+cd "$scratch"
+langford 7 >seven.plan
+langford 9 >nine.plan
+enumerate() {
+    "$TARTAN" enumerate "$@" 2>said
+}
+enumerate seven.plan --format csv >automaton
+[ -s said ] && fail "seven numbers are searched: $(<said)"
+enumerate seven.plan --format csv --max-states 20 >searched
+grep -q '^note: plans are found by search, since .*passes the limit of 20 states$' said || fail "search is not told: $(<said)"
+cmp automaton searched || fail 'search finds other plans'
+is 'plans of seven numbers' "$(tail -n +2 searched | wc -l)" 52
+enumerate seven.plan --format csv --max-states 20 --threads 1 | cmp - searched || fail 'one thread finds other plans'
+enumerate seven.plan --format csv --max-states 20 --threads 4 | cmp - searched || fail 'four threads find other plans'
+
+# Ranks are counted on the way.
+enumerate seven.plan --format csv --from 20 --to 23 >automaton
+enumerate seven.plan --format csv --from 20 --to 23 --max-states 20 | cmp - automaton || fail 'other plans from rank 20'
+enumerate seven.plan --from 52 --max-states 20 >searched
+is 'none' "$(<searched)" ''
+grep -q 'the library holds 52 plans, none of them from rank 52 on' said || fail "nothing is said of rank 52: $(<said)"
+enumerate seven.plan --format csv --mirror >automaton
+enumerate seven.plan --format csv --mirror --max-states 20 | cmp - automaton || fail 'other plans of mirror pairs'
+is 'mirror pairs' "$(tail -n +2 automaton | wc -l)" 26
+
+# None is proven, and what is found is kept.
+is 'none of nine numbers' "$(enumerate nine.plan --max-states 20)" ''
+enumerate seven.plan --max-states 20 | "$TARTAN" prune seven.plan --engine vm | cmp - <(enumerate seven.plan) || fail 'some are not kept'
+
+# A clause that is too large for gates is judged plan by plan.
+enumerate seven.plan --max-states 20 --max-gates 3000 --limit 2 | cmp - <(enumerate seven.plan --limit 2) || fail 'other plans with few gates'
+
+# As a question, and in files.
+enumerate seven.plan --max-states 20 -o plans.sqlite --limit 10
+enumerate seven.plan --max-states 20 -o plans.sqlite --resume
+is 'resumed' "$(sqlite3 plans.sqlite 'select count(*), max(cast(rank as integer)) from plans')" '52|51'
+enumerate seven.plan --max-states 20 -o plans.parquet
+cmp <("$TARTAN" prune seven.plan plans.parquet --engine vm) <(enumerate seven.plan) || fail 'Parquet has other plans'
+
+finish

@@ -1,0 +1,1 @@
+enumerate search-undecided.plan --max-states 20 --max-conflicts 10

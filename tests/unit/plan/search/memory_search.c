@@ -1,0 +1,118 @@
+/* Searching plans where memory runs out at each allocation in turn: an error, and nothing is lost. And what searching
+ * finds, where clauses are too large for gates. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "runtime/load.h"
+#include "runtime/plan/search/search.h"
+#include "tests/support/compile_file.h"
+#include "tests/support/fail_each.h"
+
+/* Counts, sums, circles, distances: two of the three trays in the middle are 6' wide. */
+static const char text[] = "schema s { width = 3' | 6'  use = hall | room | stair }\n"
+                           "rule bay = tray(hall) or neighbour(tray(room), bay, tray(room))\n"
+                           "library rows using s {\n"
+                           "  trays 5\n"
+                           "  generate bay\n"
+                           "  require sum(width) = 21' and quantity(tray(6')) >= 2\n"
+                           "  prune distance(from tray(6'), to tray(hall), by quantity(any, n = 1))\n"
+                           "}\n";
+
+static tn_module *module;
+static tn_schema *schema;
+
+static tn_status find_plans(uint32_t max_gates, uint32_t *found)
+{
+    tn_search_options options = {.max_gates = max_gates};
+    tn_plan_search *search;
+    tn_error error;
+    const tn_tray *trays;
+    uint32_t length;
+    *found = 0;
+    tn_status status = tn_plan_search_new(schema, 0, &options, &search, &error);
+    if (status != TN_OK)
+        return status;
+    do {
+        status = tn_plan_search_next(search, &trays, &length, &error);
+        *found += status == TN_OK && trays;
+    } while (status == TN_OK && trays);
+    tn_plan_search_free(search);
+    return status;
+}
+
+static tn_status all_plans(void)
+{
+    uint32_t found;
+    tn_status status = find_plans(0, &found);
+    assert_true(status != TN_OK || found > 0);
+    return status;
+}
+
+static void test_memory(void **state)
+{
+    (void)state;
+    fail_each(all_plans, false);
+}
+
+/* Brute force: all plans of five trays, judged by the interpreter. */
+static uint32_t count_plans(void)
+{
+    tn_plan_search *search;
+    tn_tray trays[5];
+    uint32_t kept = 0;
+    assert_int_equal(tn_plan_search_new(schema, 0, NULL, &search, NULL), TN_OK);
+    for (uint32_t code = 0; code < 6 * 6 * 6 * 6 * 6; code++) {
+        bool keeps;
+        for (uint32_t i = 0, rest = code; i < 5; i++, rest /= 6)
+            trays[i] = rest % 6;
+        assert_int_equal(tn_plan_search_keeps(search, trays, 5, &keeps, NULL), TN_OK);
+        kept += keeps;
+    }
+    tn_plan_search_free(search);
+    return kept;
+}
+
+/* As many plans with all clauses as gates, and with some or all of them judged by the interpreter. */
+static void test_judged(void **state)
+{
+    (void)state;
+    uint32_t expected = count_plans(), found;
+    assert_int_equal(expected, 3);
+    for (uint32_t gates = 60; gates < 3000; gates += gates / 2) {
+        assert_int_equal(find_plans(gates, &found), TN_OK);
+        assert_int_equal(found, expected);
+    }
+    assert_int_equal(find_plans(10, &found), TN_LIMIT); /* not even the trays */
+}
+
+static int setup(void **state)
+{
+    static tn_compilation compilation;
+    const library_folders none = {0};
+    assert_int_equal(compile_text("rows.plan", text, strlen(text), &none, &compilation), TN_OK);
+    assert_int_equal(tn_module_load(compilation.module, compilation.module_size, NULL, &module, NULL), TN_OK);
+    assert_int_equal(tn_schema_new(module, 0, 0, &schema, NULL), TN_OK);
+    *state = &compilation;
+    return 0;
+}
+
+static int teardown(void **state)
+{
+    tn_schema_free(schema);
+    tn_module_free(module);
+    tn_compilation_clear(*state);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_judged),
+        cmocka_unit_test(test_memory),
+    };
+    return cmocka_run_group_tests(tests, setup, teardown);
+}
