@@ -1,27 +1,31 @@
 % LaHave houses on one plan as a Prolog programmer would count them: swipl -q -g main house.pl FACTS.pl
 %
 % Functions of cells, then what is in the faces, as lahave-form says; then the clauses of lahave-complete, each as soon as it can be
-% asked. The facts are of house_facts.py. Tiles are left out. Prints how many houses there are and the seconds that counting took.
+% asked. The facts are of house_facts.py. Tiles and ways are left out. Prints how many houses there are and the seconds that counting took.
 
 :- use_module(library(assoc)).
 :- use_module(library(aggregate)).
 
-% may(Function, Zone, Dense, Storey, Wide, Great, Public)
-may(entry, machine, yes, 0, W, _, _) :- W >= 96.
-may(kitchen, machine, yes, 0, W, _, _) :- W >= 96.
-may(bath, machine, yes, _, W, _, _) :- W >= 96.
-may(store, machine, yes, _, _, _, _).
-may(hearth, body, yes, 0, _, _, _).
-may(stair, body, yes, _, _, _, _).
-may(cabinet, body, yes, _, _, _, _).
-may(hall, body, no, 0, _, yes, _).
-may(passage, body, no, _, 48, no, _).
-may(dining, body, no, 0, W, no, _) :- W >= 96.
-may(living, body, no, 0, W, no, _) :- W >= 96.
-may(bedroom, body, no, _, W, no, no) :- W >= 96.
-may(study, body, no, _, W, no, _) :- W >= 96.
-may(gallery, body, no, 1, _, yes, _).
-may(seat, bay, no, _, _, _, _).
+% may(Function, Zone, Dense, Storey, Wide, Deep, Great, Public, Double)
+may(entry, machine, yes, 0, W, _, _, _, _) :- W >= 96.
+may(entry, bay, no, _, W, 48, _, _, _) :- W >= 96.
+may(kitchen, machine, yes, 0, W, _, _, _, _) :- W >= 96.
+may(bath, machine, yes, 0, W, _, _, _, _) :- W >= 96.
+may(bath, machine, yes, 1, W, _, _, _, no) :- W >= 96.
+may(bath, body, yes, 1, 96, _, _, _, _).
+may(store, machine, yes, 0, _, _, _, _, _).
+may(store, machine, yes, 1, _, _, _, _, no).
+may(hearth, body, yes, 0, _, _, _, _, _).
+may(stair, body, yes, _, _, 144, _, _, _).
+may(cabinet, body, yes, _, _, _, _, _, _).
+may(hall, body, no, 0, _, _, yes, _, _).
+may(passage, body, no, _, 48, _, no, _, _).
+may(dining, body, no, 0, W, _, no, _, _) :- W >= 96.
+may(living, body, no, 0, W, _, no, _, _) :- W >= 96.
+may(bedroom, body, no, _, W, _, no, no, _) :- W >= 96.
+may(study, body, no, 1, W, _, no, _, _) :- W >= 96.
+may(gallery, body, no, 1, _, _, yes, _, no).
+may(seat, bay, no, _, _, _, _, _, _).
 
 % Functions in order of cells: a list of Cell-Function, void where the cell is open to the one below.
 functions(S, Functions) :-
@@ -30,46 +34,56 @@ functions(S, Functions) :-
     reverse(Reversed, Functions).
 
 function(S, I, Before, [I-F|Before]) :-
-    cell(S, I, Zone, Storey, Wide, _, Dense, Great, Public, Open),
-    ( Open == yes -> F = void ; may(F, Zone, Dense, Storey, Wide, Great, Public) ).
+    cell(S, I, Zone, Storey, Wide, Deep, Dense, Great, Public, Double),
+    ( is_void(Zone, Dense, Storey, Double) -> F = void ; may(F, Zone, Dense, Storey, Wide, Deep, Great, Public, Double) ).
+
+is_void(body, no, 1, yes).
 
 % ---- what is in a face: the first line that applies and of whose kinds one fits
 
 two(A, B, List1, List2) :- memberchk(A, List1), memberchk(B, List2), !.
 two(A, B, List1, List2) :- memberchk(B, List1), memberchk(A, List2).
 one(A, B, List) :- ( memberchk(A, List) -> true ; memberchk(B, List) ).
-body_open(F) :- memberchk(F, [hall, passage, dining, living, bedroom, study, gallery]).
-machine(F) :- memberchk(F, [entry, kitchen, bath, store]).
 
-line(A, B, [open]) :- two(A, B, [hall], [hall, gallery]).
-line(seat, B, [open]) :- body_open(B).
-line(A, seat, [open]) :- body_open(A).
-line(A, B, [wall]) :- one(A, B, [seat]).
-line(A, B, [wall]) :- one(A, B, [hearth]), \+ two(A, B, [hearth], [hall, living, dining]).
-line(A, B, [open]) :- two(A, B, [hearth], [hall, living, dining]).
-line(A, B, [open]) :- two(A, B, [passage, stair], [hall, living, dining, gallery, passage, stair]).
-line(A, B, [open, door]) :- two(A, B, [kitchen], [dining, hall]).
-line(A, B, [door]) :- two(A, B, [bath], [bedroom, passage, stair]).
-line(A, B, [wall]) :- one(A, B, [bath]).
-line(A, B, [door]) :- two(A, B, [bedroom], [passage, gallery, stair]).
-line(A, B, [wall]) :- one(A, B, [bedroom]).
-line(A, B, [wall]) :- two(A, B, [store, cabinet], [store, cabinet]).
-line(A, B, [wall]) :- machine(A), machine(B).
-line(_, _, [door]).
+% line(Relation, ZoneA-FunctionA, ZoneB-FunctionB, Kind)
+line(along, machine-_, machine-_, wall).
+line(along, Z-_, Y-_, wall) :- one(Z, Y, [bay]).
+line(across, Z-F, Y-G, open) :- two(Z-F, Y-G, [bay-seat], [body-G, body-F]).
+line(across, _-F, _-G, wall) :- one(F, G, [seat]).
+line(across, _-F, _-G, open) :- two(F, G, [entry], [hall, living, dining, passage, stair, hearth, cabinet]).
+line(across, _-F, _-G, open) :- two(F, G, [kitchen], [dining, hall]).
+line(across, Z-F, Y-G, 'sliding-door') :- one(Z-F, Y-G, [machine-bath]), one(F, G, [passage, stair, hearth, cabinet, gallery]).
+line(across, _-F, _-G, 'sliding-door') :- one(F, G, [store]).
+line(across, Z-_, Y-_, wall) :- one(Z, Y, [machine]).
+line(along, _-F, _-G, 'bath-door') :- two(F, G, [bath], [passage, stair, gallery, cabinet]).
+line(_, _-F, _-G, wall) :- one(F, G, [bath]).
+line(_, _-F, _-G, 'bed-door') :- two(F, G, [bedroom], [passage, gallery, stair, hearth, cabinet, living, study]).
+line(_, _-F, _-G, wall) :- one(F, G, [bedroom]).
+line(_, _-F, _-G, 'bed-door') :- one(F, G, [study]).
+line(along, _-F, _-G, arch) :- one(F, G, [stair]).
+line(along, body-_, body-_, open).
 
-line_outside(entry, back, [entrance]).
-line_outside(store, _, [wall]).
-line_outside(F, _, [strip]) :- machine(F).
-line_outside(seat, _, [glass, window]).
-line_outside(hall, front, [glass, window]).
-line_outside(F, _, [wall]) :- memberchk(F, [hearth, cabinet]).
-line_outside(_, _, [window]).
+% line_outside(Zone, Storey, Function, Side, Kinds)
+line_outside(machine, _, entry, back, [entrance]).
+line_outside(bay, _, entry, front, [entrance]).
+line_outside(_, _, entry, _, [strip]).
+line_outside(_, _, store, _, [wall]).
+line_outside(machine, _, _, _, [strip]).
+line_outside(_, _, seat, front, [glass, window]).
+line_outside(_, _, seat, _, [window]).
+line_outside(_, _, F, _, [wall]) :- memberchk(F, [hearth, cabinet]).
+line_outside(_, _, F, _, [strip]) :- memberchk(F, [stair, bath]).
+line_outside(body, 1, _, back, [strip]).
+line_outside(_, _, _, _, [window]).
 
 % Every opening is low enough for both storeys.
 fits(Long, Kind) :- wide(Kind, Wide), !, Long >= Wide + 6.
 fits(_, _).
 wide(entrance, 36).
-wide(door, 32).
+wide(arch, 36).
+wide('bed-door', 32).
+wide('bath-door', 32).
+wide('sliding-door', 32).
 wide(window, 36).
 wide(strip, 24).
 wide(glass, 72).
@@ -77,26 +91,28 @@ wide(glass, 72).
 kinds(Goal, Long, Kinds) :- call(Goal, All), include(fits(Long), All, Kinds), Kinds \== [], !.
 kinds(_, _, [wall]).
 
-between(A, B, _, [open]) :- A == void, memberchk(B, [void, gallery, passage]), !.
-between(A, B, _, [open]) :- B == void, memberchk(A, [gallery, passage]), !.
-between(A, B, _, [wall]) :- one(A, B, [void]), !.
-between(A, B, Long, Kinds) :- kinds(line(A, B), Long, Kinds).
+between(_, _-A, _-B, _, [open]) :- two(A, B, [void], [void, gallery, passage]), !.
+between(_, _-A, _-B, _, [wall]) :- one(A, B, [void]), !.
+between(Relation, A, B, Long, [Kind]) :- line(Relation, A, B, Kind), fits(Long, Kind), !.
+between(_, _, _, _, [wall]).
 
 over(_, void, open) :- !.
-over(stair, stair, stair) :- !.
+over(stair, stair, dogleg) :- !.
 over(_, _, floor).
 
 % face(A, B, Kind), B of the outside: out(Side)
 faces(S, Of, Faces) :-
-    findall(choice(A, B, Kinds), ( beside(S, A, B, Long), get_assoc(A, Of, F), get_assoc(B, Of, G), between(F, G, Long, Kinds) ), Inner),
-    findall(choice(A, out(Side), Kinds), ( outside(S, A, Side, Long), get_assoc(A, Of, F), outer(F, Side, Long, Kinds) ), Outer),
+    findall(choice(A, B, Kinds), ( beside(S, A, B, Relation, Long), placed(S, Of, A, F), placed(S, Of, B, G), between(Relation, F, G, Long, Kinds) ), Inner),
+    findall(choice(A, out(Side), Kinds), ( outside(S, A, Side, Long), outer(S, Of, A, Side, Long, Kinds) ), Outer),
     findall(choice(A, B, [Kind]), ( above(S, A, B), get_assoc(A, Of, F), get_assoc(B, Of, G), over(F, G, Kind) ), Floors),
     append([Inner, Outer, Floors], Choices),
     maplist(choose, Choices, Faces).
 
-outer(void, _, Long, Kinds) :- !, kinds(line_outside(any), Long, Kinds).
-outer(F, Side, Long, Kinds) :- kinds(line_outside(F, Side), Long, Kinds).
-line_outside(any, [window]).
+placed(S, Of, A, Zone-F) :- cell(S, A, Zone, _, _, _, _, _, _, _), get_assoc(A, Of, F).
+outer(S, Of, A, Side, Long, Kinds) :-
+    cell(S, A, Zone, Storey, _, _, _, _, _, _),
+    get_assoc(A, Of, F),
+    kinds(line_outside(Zone, Storey, F, Side), Long, Kinds).
 choose(choice(A, B, Kinds), face(A, B, Kind)) :- member(Kind, Kinds).
 
 % ---- clauses that ask for functions alone
@@ -106,37 +122,28 @@ number_of(F, Functions, N) :- aggregate_all(count, member(_-F, Functions), N).
 programme(Functions) :-
     number_of(entry, Functions, 1), number_of(kitchen, Functions, 1),
     number_of(bath, Functions, Baths), Baths >= 1, Baths =< 2,
-    number_of(bedroom, Functions, Beds), Beds >= 1, Beds =< 4.
+    number_of(bedroom, Functions, Beds), Beds >= 2.
 
 stairs(S, Functions) :-
     section(S, _, Storeys, _, _),
-    ( Storeys =:= 1 -> double(no), \+ member(_-stair, Functions)
-    ; aggregate_all(count, ( member(I-stair, Functions), cell(S, I, _, 0, _, _, _, _, _, _) ), 1),
-      once(( above(S, A, B), memberchk(A-stair, Functions), memberchk(B-stair, Functions) )) ),
+    ( Storeys =:= 1 -> double(no) ; true ),
+    aggregate_all(count, ( member(I-stair, Functions), cell(S, I, _, 0, _, _, _, _, _, _) ), Stairs),
+    Stairs =< 1,
     \+ half_stair(S, Functions).
 
 half_stair(S, Functions) :-
     above(S, A, B), memberchk(A-F, Functions), memberchk(B-G, Functions), G \== void,
     ( F == stair, G \== stair ; G == stair, F \== stair ).
 
-large(S, Functions) :- \+ ( member(I-bedroom, Functions), cell(S, I, _, _, _, Area, _, _, _, _), Area < 60 ).
-
 % ---- clauses that ask for faces
 
 linked(Faces, A, B, Kinds) :- ( member(face(A, B, Kind), Faces) ; member(face(B, A, Kind), Faces) ), memberchk(Kind, Kinds).
 
-has(Faces, I, Kind) :- ( member(face(I, _, Kind), Faces) ; member(face(_, I, Kind), Faces) ), !.
-
-served(Functions, Faces) :-
-    member(K-kitchen, Functions), linked(Faces, K, B, [open, door]), memberchk(B-F, Functions), memberchk(F, [dining, hall]), !.
-lit(Functions, Faces) :- \+ ( member(I-bedroom, Functions), \+ has(Faces, I, window) ).
-closed(Functions, Faces) :- \+ ( member(I-bath, Functions), \+ has(Faces, I, door) ).
-
-% Every cell but baths, stores and seats: a walk to the entry, between them not through bedrooms, baths and stores.
+% Every cell but stores and seats: a walk to the entry, between them not through bedrooms, baths, stores and kitchens.
 joined(Functions, Faces) :-
     memberchk(E-entry, Functions),
     reach([E], [E], Functions, Faces, Reached),
-    \+ ( member(I-F, Functions), \+ memberchk(F, [void, bath, store, seat]), \+ memberchk(I, Reached) ).
+    \+ ( member(I-F, Functions), \+ memberchk(F, [void, store, seat]), \+ memberchk(I, Reached) ).
 
 reach([], Reached, _, _, Reached).
 reach([A|Queue], Seen, Functions, Faces, Reached) :-
@@ -147,8 +154,8 @@ reach([A|Queue], Seen, Functions, Faces, Reached) :-
     append(Queue, On, Queue1),
     reach(Queue1, Seen1, Functions, Faces, Reached).
 
-step(Faces, A, B) :- linked(Faces, A, B, [open, door, stair]), integer(B).
-passable(Functions, I) :- memberchk(I-F, Functions), \+ memberchk(F, [bedroom, bath, store]).
+step(Faces, A, B) :- linked(Faces, A, B, [open, arch, 'bed-door', 'bath-door', 'sliding-door', dogleg]), integer(B).
+passable(Functions, I) :- memberchk(I-F, Functions), \+ memberchk(F, [bedroom, bath, store, kitchen]).
 
 % ---- all of them
 
@@ -157,12 +164,8 @@ house(S) :-
     functions(S, Functions),
     programme(Functions),
     stairs(S, Functions),
-    large(S, Functions),
     list_to_assoc(Functions, Of),
     faces(S, Of, Faces),
-    served(Functions, Faces),
-    lit(Functions, Faces),
-    closed(Functions, Faces),
     joined(Functions, Faces).
 
 main :-

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """A LaHave plan, stood up in every section of lahave-form, as facts for house.pl: house_facts.py PLAN >FACTS.pl
 
-cell(S, Id, Zone, Storey, Wide, AreaSf, Dense, Great, Public, Open), above(S, Low, High), beside(S, A, B, Long), outside(S, A, Side, Long);
+cell(S, Id, Zone, Storey, Wide, Deep, Dense, Great, Public, Double), above(S, Low, High), beside(S, A, B, Relation, Long),
+outside(S, A, Side, Long); a relation is along or across;
 lengths in inches. S is a section: section(S, MachineStoreys, BodyStoreys, MachineRoof, BodyRoof). double(yes): some tray is."""
 import itertools
 import re
@@ -77,7 +78,7 @@ def faces(cells):
             if a["tray"] == b["tray"] and a["zone"] == b["zone"] and a["storey"] + 1 == b["storey"]:
                 above.append((i, k))
             continue
-        beside.append((i, k, part[1] - part[0]))
+        beside.append((i, k, "along" if a["tray"] != b["tray"] else "across", part[1] - part[0]))
         taken[i, sides[0]].append(part)
         taken[k, sides[1]].append(part)
     for i, c in enumerate(cells):
@@ -89,7 +90,7 @@ def faces(cells):
 def main():
     trays = read_plan(sys.argv[1])
     yes = lambda b: "yes" if b else "no"
-    print(":- discontiguous section/5, cell/10, above/3, beside/4, outside/4.")
+    print(":- discontiguous section/5, cell/10, above/3, beside/5, outside/4.")
     print(f"double({yes(any(tray['double'] for tray in trays))}).")
     number = 0
     for machine, machine_roof, body, body_roof in itertools.product((1, 2), ("flat", "shed"), (1, 2), ("gable", "shed", "vault")):
@@ -100,12 +101,11 @@ def main():
             print(f"section({number}, {machine}, {body}, {machine_roof}, {body_roof}).")
             for i, c in enumerate(cells):
                 tray = trays[c["tray"]]
-                void = c["zone"] == "body" and not c["dense"] and c["storey"] == 1 and tray["double"]
                 wide, deep = c["x"][1] - c["x"][0], c["y"][1] - c["y"][0]
-                print(f"cell({number}, {i}, {c['zone']}, {c['storey']}, {wide}, {wide * deep / 144}, {yes(c['dense'])}, {yes(tray['great'])}, {yes(tray['public'])}, {yes(void)}).")
+                print(f"cell({number}, {i}, {c['zone']}, {c['storey']}, {wide}, {deep}, {yes(c['dense'])}, {yes(tray['great'])}, {yes(tray['public'])}, {yes(tray['double'])}).")
             beside, outside, above = faces(cells)
-            for a, b, long in beside:
-                print(f"beside({number}, {a}, {b}, {long}).")
+            for a, b, relation, long in beside:
+                print(f"beside({number}, {a}, {b}, {relation}, {long}).")
             for a, side, long in outside:
                 print(f"outside({number}, {a}, {side}, {long}).")
             for a, b in above:

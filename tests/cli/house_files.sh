@@ -3,9 +3,9 @@
 name=house_files
 . "$(dirname "$0")/golden.bash"
 
-walk="12' double public great dense:4' open:8' open:3' | 8' single - - dense:4' dense:8' empty | 4' single - - dense:4' open:8' empty | 8' single - - dense:4' open:8' open:3'"
-walk="$walk ; 1 shed(back,4:12) 2 gable(12:12) 1 shed(front,4:12) shingle ; entry hall void seat | bath stair stair | store passage passage"
-walk="$walk | kitchen dining bedroom seat ; glass open glass ; long-table.back window-seat.front bath-room.back shelves.back line-kitchen.back table.back bed.back window-seat.front"
+walk="12' double public great dense:8' open:12' open:4' | 8' single - - dense:8' dense:12' empty | 4' single - - dense:8' open:8' empty | 12' single - - dense:8' open:12' open:4'"
+walk="$walk ; 1 flat 2 gable(12:12) 1 flat shingle ; kitchen hall void entry | bath stair stair | store passage passage | store bedroom bedroom seat"
+walk="$walk ; glass ; line-kitchen.back long-table.left coats.left bath-room.back closet.back shelves.back day-bed.right bed.front window-seat.front"
 hut="14' room:14' none ; 1 gable(9:12) 1 flat ; kitchen ; wall window wall wall ; counter.back"
 
 # made FILE HOUSE FOLDER OPTION...: writes the files that are looked at.

@@ -40,7 +40,7 @@ golden eight_storeys_ranked "tartan unrank $scratch/eight.plan 123456789 --libra
 golden too_many_slices "tartan count $scratch/twelve.plan --library towers --by dens"
 golden too_many_cells "tartan count $scratch/thirty.plan --library towers --by dens"
 # What is too much is said before it is counted, where states without tiles already are.
-golden sample_too_many 'tartan sample lahave-complete 6 --library lahave-complete'
+golden sample_too_many 'tartan sample lahave-complete 6 --library lahave-complete --max-states 100000'
 golden relations_limit 'tartan check lahave-few.plan --relations --max-states 12000'
 # Long numbers stay apart from those beside them.
 golden count_wide "tartan count apartments --library apartments --plan '#0' --clauses | sed -n '/without/,\$p'"
