@@ -4,8 +4,8 @@
 
 #include "runtime/automata/shortest.h"
 #include "runtime/automata/sparse.h"
-#include "runtime/base/random.h"
 #include "runtime/plan/analysis/analysis_data.h"
+#include "runtime/plan/library/drawn.h"
 
 #define WORK_PER_STATE 300u /* as libraries are combined */
 
@@ -96,97 +96,37 @@ static tn_status find_reasons(question *q, const tn_sparse *plans, bool added, s
 
 /* ---- what one part keeps out */
 
-#define DRAWN 64u /* plans that tell which part to apply next */
-
-/* The letters of each column: those of column c are letters[first[c]] to letters[first[c + 1] - 1]. */
-typedef struct column_letters {
-    uint32_t *first, *letters;
-} column_letters;
-
-static bool list_letters(const tn_sparse *plans, column_letters *l)
-{
-    l->first = calloc((size_t)plans->columns + 2, sizeof *l->first);
-    l->letters = malloc(((size_t)plans->letters + 1) * sizeof *l->letters);
-    if (!l->first || !l->letters)
-        return false;
-    for (uint32_t letter = 0; letter < plans->letters; letter++)
-        l->first[plans->column[letter] + 2]++;
-    for (uint32_t c = 1; c <= plans->columns; c++)
-        l->first[c + 1] += l->first[c];
-    for (uint32_t letter = 0; letter < plans->letters; letter++)
-        l->letters[l->first[plans->column[letter] + 1]++] = letter;
-    return true;
-}
-
-static void letters_clear(column_letters *l)
-{
-    free(l->first);
-    free(l->letters);
-}
-
-/* A plan of an automaton without cycles, by a random walk. */
-static bool draw(const tn_sparse *plans, const column_letters *l, uint64_t number, tn_key *word)
-{
-    word->size = 0;
-    for (uint32_t state = 0;;) {
-        size_t first = plans->first[state], edges = plans->first[state + 1] - first;
-        uint64_t chance = tn_random64(number, 0, word->size);
-        uint64_t way = chance % (edges + plans->accept[state]);
-        if (way == edges)
-            return true;
-        uint32_t column = plans->label[first + way];
-        uint32_t letters = l->first[column + 1] - l->first[column];
-        if (!tn_key_push(word, l->letters[l->first[column] + (chance >> 32) % letters]))
-            return false;
-        state = plans->target[first + way];
-    }
-}
-
-static bool fails(const tn_search_part *part, const tn_key *word)
-{
-    return tn_dfa_accepts(part->dfa, word->data, word->size) != part->accepts;
-}
-
 /* The other part that most of these plans fail; *escapes: does one of them fail none? */
-static size_t choose_part(const question *q, size_t count, size_t except, const tn_key *words, size_t drawn,
-                          bool *escapes)
+static size_t choose_part(const question *q, size_t count, size_t except, const tn_drawn_plans *drawn, bool *escapes)
 {
-    size_t best = count, most = 0, failed[DRAWN] = {0};
+    size_t best = count;
+    int most = 0;
+    uint64_t failed = 0, all = drawn->count < 64 ? (UINT64_C(1) << drawn->count) - 1 : UINT64_MAX;
     for (size_t k = 0; k < count; k++) {
-        size_t here = 0;
-        for (size_t w = 0; k != except && w < drawn; w++) {
-            bool one = fails(&q->parts[k], &words[w]);
-            failed[w] += one;
-            here += one;
-        }
-        if (here > most) {
+        if (k == except)
+            continue;
+        uint64_t here = tn_drawn_plans_failing(drawn, q->parts[k].dfa, q->parts[k].accepts);
+        failed |= here;
+        if (__builtin_popcountll(here) > most) {
             best = k;
-            most = here;
+            most = __builtin_popcountll(here);
         }
     }
-    *escapes = false;
-    for (size_t w = 0; w < drawn; w++)
-        *escapes = *escapes || failed[w] == 0;
+    *escapes = failed != all;
     return best;
 }
 
-/* Some plans of those that are left: drawn, or the shortest if there are cycles. *drawn = 0: there is none. */
-static tn_status draw_some(const question *q, const tn_sparse *plans, uint32_t max, tn_key *words, size_t *drawn,
+/* Some plans of those that are left: drawn, or the shortest if there are cycles. */
+static tn_status draw_some(const question *q, const tn_sparse *plans, uint32_t max, tn_drawn_plans *drawn,
                            tn_error *error)
 {
-    column_letters letters = {0};
+    if (plans->folded)
+        return tn_drawn_plans_make(plans, drawn, error);
     bool found;
-    *drawn = 0;
-    if (!plans->folded) {
-        tn_status status = tn_sparse_shortest(plans, q->min, max, &words[0], &found, error);
-        *drawn = status == TN_OK && found;
-        return status;
-    }
-    bool good = list_letters(plans, &letters);
-    for (; good && *drawn < DRAWN; ++*drawn)
-        good = draw(plans, &letters, *drawn, &words[*drawn]);
-    letters_clear(&letters);
-    return good ? TN_OK : tn_fail_memory(error);
+    *drawn = (tn_drawn_plans){0};
+    tn_status status = tn_sparse_shortest(plans, q->min, max, &drawn->plans[0], &found, error);
+    drawn->count = status == TN_OK && found;
+    return status;
 }
 
 /* Takes from the plans what another part keeps out, the one that most of some plans fail, again and again: few parts
@@ -197,13 +137,12 @@ static tn_status take_apart(question *q, size_t count, size_t i, uint32_t max, t
     tn_status status = apply(q, &q->parts[i], !q->parts[i].accepts, plans, error);
     *alone = false;
     while (status == TN_OK && !*alone && leaves(*plans, q->min)) {
-        tn_key words[DRAWN] = {0};
-        size_t drawn;
-        status = draw_some(q, *plans, max, words, &drawn, error);
-        size_t other = status == TN_OK ? choose_part(q, count, i, words, drawn, alone) : count;
-        for (size_t w = 0; w < DRAWN; w++)
-            free(words[w].data);
-        if (status != TN_OK || drawn == 0)
+        tn_drawn_plans drawn;
+        status = draw_some(q, *plans, max, &drawn, error);
+        size_t other = choose_part(q, count, i, &drawn, alone);
+        bool any = drawn.count > 0;
+        tn_drawn_plans_clear(&drawn);
+        if (status != TN_OK || !any)
             return status;
         if (!*alone)
             status = apply(q, &q->parts[other], q->parts[other].accepts, plans, error);
