@@ -140,6 +140,18 @@ static void write_rows(tn_job *job, const tn_best_request *request)
     tn_reply_clear(&answer);
 }
 
+/* Houses, with their rooms and faces. */
+static void write_tables(tn_job *job, const tn_best_request *request)
+{
+    tn_written_settings written = settings_of(job)->written;
+    tn_found_rows rows;
+    tn_reply answer;
+    written.columns = true;
+    tn_found_rows_begin(&rows, job, &written, "best");
+    tn_found_rows_end(&rows, tn_ask_best(&job->session, request, &answer));
+    tn_reply_clear(&answer);
+}
+
 /* ---- drawn */
 
 static void draw(tn_job *job, const tn_best_request *best)
@@ -179,18 +191,22 @@ static void find_plans(tn_job *job, const tn_best_request *request)
         write_rows(job, request);
 }
 
-/* Houses are written as lines or JSON, or drawn; what else plans may be told is wrong usage. */
+/* Houses are written as lines or JSON, as tables, or drawn; what else plans may be told is wrong usage. */
 static void find_houses(tn_job *job, const tn_best_request *request)
 {
     const best_settings *settings = settings_of(job);
     const char *output = settings->written.output;
     tn_plan_format format = (tn_plan_format)settings->written.format;
     bool lines = format == TN_FORMAT_AUTO || format == TN_FORMAT_JSON || format == TN_FORMAT_LINES;
-    if (!tn_job_writes(job, "a list of the best houses", output, TN_WRITES_TEXT | TN_WRITES(JSON) | TN_WRITES_PICTURES))
+    if (!tn_job_writes(job, "a list of the best houses", output,
+                       TN_WRITES_TEXT | TN_WRITES(JSON) | TN_WRITES(CSV) | TN_WRITES(SQLITE) | TN_WRITES(PARQUET) |
+                           TN_WRITES_PICTURES))
         return;
-    if (!lines) {
-        tn_diagnostic *d =
-            tn_job_usage(job, "the best houses are written as lines or JSON, or drawn: leave out this --format");
+    if (format == TN_FORMAT_CSV || format == TN_FORMAT_SQLITE || format == TN_FORMAT_PARQUET) {
+        write_tables(job, request);
+    } else if (!lines) {
+        tn_diagnostic *d = tn_job_usage(
+            job, "the best houses are written as lines, JSON or tables, or drawn: leave out this --format");
         tn_help(tn_job_diagnostics(job), d, "-o NAME.svg, NAME.png or NAME.pdf draws them");
     } else if (tn_job_draws(output) && !settings->mirror) {
         draw(job, request);
@@ -273,7 +289,8 @@ const tn_command tn_command_best = {
         "with its place and its values. With --diverse they are plans that differ, as `tartan sample --diverse` "
         "chooses them: the best, and then each time the one of the best 1,000 (or of 20 times N) that differs most "
         "from those before; they are written in their order.\n\n"
-        "With --library HOUSES, or --plan, the best houses are written, as house lines or JSON lines, or drawn, each "
+        "With --library HOUSES, or --plan, the best houses are written, as house lines or JSON lines, as tables (.csv "
+        "or .sqlite, as `tartan sample --columns` writes them), or drawn, each "
         "with its name #P:V and its values; --least and --most name measures of houses or of plans "
         "(docs/houses.md). With --diverse they are the best houses on N different plans, in order; where there are not "
         "so many plans with houses, then those whose storeys, roofs or other choices of the section differ from those "

@@ -103,15 +103,38 @@ static bool open_plans(tn_found_rows *rows)
     return opened;
 }
 
+/* As tables: of CSV, Parquet or a database, from the first to the last. */
+static bool open_tables(tn_found_rows *rows, const tn_plan_metadata *metadata)
+{
+    const tn_written_settings *settings = rows->settings;
+    tn_plan_format format = (tn_plan_format)settings->format;
+    if (format != TN_FORMAT_SQLITE && format != TN_FORMAT_CSV && format != TN_FORMAT_PARQUET)
+        tn_help(tn_job_diagnostics(rows->job),
+                tn_job_usage(rows->job, "tables of houses are CSV, Parquet or a database"),
+                "write to a file that ends in .csv, .parquet or .sqlite, or leave out --columns");
+    else if (settings->resume)
+        tn_help(tn_job_diagnostics(rows->job), tn_job_usage(rows->job, "tables of houses are written at once"),
+                "leave out --resume or --columns");
+    else if (settings->plan_lines || settings->row_group.given)
+        tn_help(tn_job_diagnostics(rows->job),
+                tn_job_usage(rows->job, "--plan-lines and --row-group are about plans in Parquet"), "leave them out");
+    else
+        rows->in_tables = true;
+    return rows->in_tables && tn_house_tables_open(&rows->tables, rows->job, rows->of.houses, settings->output, format,
+                                                   settings->csv_safe, metadata);
+}
+
 static bool open_houses(tn_found_rows *rows)
 {
     static const tn_row_columns columns = {
         .what = "houses", .table = "houses", .names = {"plan_rank", "variant", "house"}, .count = 3};
     const tn_numbered *n = rows->of.houses;
-    tn_provenance described;
+    tn_provenance *described = &rows->described;
     tn_provenance_describe_houses(&rows->job->opened, n->plans, tn_text(n->form.module, n->record->name),
-                                  rows->job->settings->operands.items[0], rows->made, &described);
-    const tn_row_source source = {.schema = n->schema, .metadata = &described.metadata, .rows = &columns};
+                                  rows->job->settings->operands.items[0], rows->made, described);
+    if (rows->settings->columns)
+        return open_tables(rows, &described->metadata);
+    const tn_row_source source = {.schema = n->schema, .metadata = &described->metadata, .rows = &columns};
     return job_row_writer(rows->job, rows->settings, &source, &rows->writer);
 }
 
@@ -176,9 +199,10 @@ static bool begins(void *context, tn_found_of *of)
     if (of->from) {
         mpz_set(rows->first, of->from);
         mpz_set(rows->next, of->from);
-        resume(rows, of);
     }
-    if (rows->sample && tn_plan_writer_resumes(rows->writer))
+    if (of->from && rows->writer)
+        resume(rows, of);
+    if (rows->sample && rows->writer && tn_plan_writer_resumes(rows->writer))
         tn_interrupt_last_words(PART, rows->settings->output);
     if (rows->enumerates)
         begin_progress(rows);
@@ -247,12 +271,14 @@ static bool takes(void *context, const tn_found_one *found)
 {
     tn_found_rows *rows = context;
     tn_error error;
-    tn_status status = (found->house ? write_house : write_plan)(rows, found, &error);
+    tn_status status = rows->in_tables ? tn_house_tables_write(&rows->tables, found, &error)
+                                       : (found->house ? write_house : write_plan)(rows, found, &error);
     if (status != TN_OK) {
         tn_job_fail(rows->job, &error);
         return false;
     }
-    mpz_add_ui(rows->next, found->rank, 1);
+    if (found->rank)
+        mpz_add_ui(rows->next, found->rank, 1);
     rows->written++;
     if (rows->enumerates && (found->house || rows->written % LOOK_EVERY == 0))
         tn_progress_update(&rows->progress, done(rows));
@@ -273,6 +299,9 @@ static void close_writer(tn_found_rows *rows)
     if (rows->writer)
         tn_job_rows_close(rows->job, rows->writer);
     rows->writer = NULL;
+    if (rows->in_tables)
+        tn_house_tables_close(&rows->tables, rows->job->exit_code == TN_EXIT_DONE);
+    rows->in_tables = false;
 }
 
 /* Keeps what was written: whole batches of a database, every row of anything else, and says how to go on. A database
@@ -299,7 +328,7 @@ static void interrupt(tn_found_rows *rows)
 
 void tn_found_rows_end(tn_found_rows *rows, tn_status status)
 {
-    if (rows->enumerates && rows->writer)
+    if (rows->enumerates && (rows->writer || rows->in_tables))
         tn_progress_end(&rows->progress);
     if (status == TN_STOPPED && rows->writer)
         interrupt(rows);

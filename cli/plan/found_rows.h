@@ -5,7 +5,9 @@
 #include "ask/plan/found.h"
 #include "cli/common/job.h"
 #include "cli/common/options.h"
+#include "cli/plan/house_tables.h"
 #include "cli/plan/library_job.h"
+#include "driver/plan/provenance.h"
 #include "runtime/plan/text/stream.h"
 
 /* Writing ranked rows as the options say: plans or houses, as lines, JSON, CSV, packed, a SQLite library, or Parquet.
@@ -28,7 +30,8 @@ typedef struct tn_written_settings {
            "otherwise lines)")
 #define OPTION_COLUMNS                                                                                                 \
     FLAG("columns", 0, written.columns,                                                                                \
-         "in CSV a row for each tray, with a column for each field; in a database such rows in a second table")
+         "in CSV a row for each tray, with a column for each field; in a database such rows in a second table. Of "    \
+         "houses a column for each choice, function, measure and price, and tables of rooms and faces")
 #define OPTION_CSV_SAFE                                                                                                \
     FLAG("csv-safe", 0, written.csv_safe,                                                                              \
          "in CSV, put ' before a plan that begins with = + - or @, so that no spreadsheet computes it")
@@ -67,7 +70,10 @@ typedef struct tn_found_rows {
 
     tn_taker taker;
     tn_found_of of;
-    tn_plan_writer *writer;  /* NULL: it has not begun, or is closed */
+    tn_plan_writer *writer; /* NULL: it has not begun, or is closed */
+    bool in_tables;         /* they are houses, and written as tables */
+    tn_house_tables_file tables;
+    tn_provenance described; /* of houses */
     mpz_t first, next;       /* ranks: the first of all, before anything was resumed, and the next */
     uint64_t written;        /* those resumed included */
     tn_buffer line, members; /* of a house */

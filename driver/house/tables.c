@@ -100,7 +100,7 @@ static bool is_first(const tn_house_form *form, uint32_t function)
 static tn_status add_functions(tn_house_tables *t, columns *houses, tn_error *error)
 {
     tn_status status = TN_OK;
-    for (uint32_t i = 0; status == TN_OK && i < t->form->record->rule_count; i++) {
+    for (uint32_t i = 0; status == TN_OK && i < tn_form_functions(t->form); i++) {
         char name[2 * TN_NAME_MAX + 8];
         if (!is_first(t->form, i))
             continue;
@@ -113,11 +113,16 @@ static tn_status add_functions(tn_house_tables *t, columns *houses, tn_error *er
     return status;
 }
 
-/* "m2", "ft", "per_m2" */
+/* "m2", "ft", "per_m2"; of squares and cubes of feet "sf" and "cf", as in all tables of houses. */
 static void measure_unit(const tn_house_tables *t, int power, char text[16])
 {
     const char *unit = tn_amount_unit_name(tn_amount_unit_of(t->form->schema, power));
-    snprintf(text, 16, "%s%s", *unit == '/' ? "per_" : "", *unit == '/' ? unit + 1 : unit);
+    bool per = *unit == '/';
+    unit += per;
+    snprintf(text, 16, "%s%s", per ? "per_" : "",
+             strcmp(unit, "ft2") == 0   ? "sf"
+             : strcmp(unit, "ft3") == 0 ? "cf"
+                                        : unit);
 }
 
 static bool has_measure(const tn_house_tables *t, uint32_t measure)
@@ -159,8 +164,9 @@ static tn_status add_all(columns *to, const tn_house_column *named, size_t count
 static tn_status make_houses(tn_house_tables *t, tn_error *error)
 {
     static const tn_house_column first[] = {
-        {"house", TN_COLUMN_WHOLE}, {"rank", TN_COLUMN_TEXT},  {"plan", TN_COLUMN_TEXT}, {"trays", TN_COLUMN_WHOLE},
-        {"rooms", TN_COLUMN_WHOLE}, {"gross", TN_COLUMN_REAL}, {"net", TN_COLUMN_REAL},  {"glazed", TN_COLUMN_REAL}};
+        {"house", TN_COLUMN_WHOLE}, {"rank", TN_COLUMN_TEXT},   {"plan_rank", TN_COLUMN_TEXT},
+        {"plan", TN_COLUMN_TEXT},   {"trays", TN_COLUMN_WHOLE}, {"rooms", TN_COLUMN_WHOLE},
+        {"gross", TN_COLUMN_REAL},  {"net", TN_COLUMN_REAL},    {"glazed", TN_COLUMN_REAL}};
     columns *houses = &t->of[TN_TABLE_HOUSES];
     tn_status status = add_all(houses, first, sizeof first / sizeof *first, square_unit(t), error);
     for (uint32_t i = 0; status == TN_OK && i < t->form->record->choice_count; i++)
@@ -168,10 +174,10 @@ static tn_status make_houses(tn_house_tables *t, tn_error *error)
             add_column(houses, TN_COLUMN_TEXT, tn_text(t->form->module, tn_form_choice(t->form, i)->name), "", error);
     if (status == TN_OK)
         status = add_functions(t, houses, error);
+    if (status == TN_OK && tn_form_has_costs(t->form))
+        status = add_column(houses, TN_COLUMN_REAL, "cost", "", error);
     if (status == TN_OK)
         status = add_measures(t, houses, error);
-    if (status == TN_OK && tn_form_has_costs(t->form))
-        status = add_column(houses, TN_COLUMN_REAL, "price", "", error);
     return status == TN_OK ? add_column(houses, TN_COLUMN_TEXT, "line", "", error) : status;
 }
 
@@ -416,28 +422,37 @@ static void put_cell(const adding *a, uint32_t cell)
     put_text(a->t, cell_function(a->house, cell));
 }
 
-static tn_status add_faces(const adding *a, tn_error *error)
+/* Of a wall between a room and a cell in the open, the room comes first, and the side is its. */
+static void put_face(const adding *a, uint32_t number)
 {
     static const char *const sides[] = {"above", "back", "front", "left", "right"};
+    static const int turned[] = {0, 2, 1, 4, 3};
     tn_house_tables *t = a->t;
+    const tn_face *face = &a->house->faces[number];
+    bool outer = tn_face_is_outer(a->house, face),
+         turns = outer && face->second != TN_NO_CELL && tn_face_sheltered(a->house, face) == face->second;
+    put_whole(t, a->number);
+    put_whole(t, (uint64_t)number + 1);
+    put_cell(a, turns ? face->second : face->first);
+    put_cell(a, turns ? face->first : face->second);
+    put_text(t, storey_name(a->house, face->storey));
+    put_text(t, sides[turns ? turned[face->side] : (int)face->side]);
+    put_whole(t, outer);
+    put_text(t, tn_form_kind_text(a->house->form, face->kind));
+    put_nanometres(t, face->at.x0, 1);
+    put_nanometres(t, face->at.x1, 1);
+    put_nanometres(t, face->at.y0, 1);
+    put_nanometres(t, face->at.y1, 1);
+    put_nanometres(t, tn_face_glazing(a->house, face), 2);
+}
+
+static tn_status add_faces(const adding *a, tn_error *error)
+{
     tn_status status = TN_OK;
     for (uint32_t i = 0; status == TN_OK && i < a->house->face_count; i++) {
-        const tn_face *face = &a->house->faces[i];
-        begin_row(t);
-        put_whole(t, a->number);
-        put_whole(t, (uint64_t)i + 1);
-        put_cell(a, face->first);
-        put_cell(a, face->second);
-        put_text(t, storey_name(a->house, face->storey));
-        put_text(t, sides[face->side]);
-        put_whole(t, face->relation == TN_FACE_OUTSIDE);
-        put_text(t, tn_form_kind_text(a->house->form, face->kind));
-        put_nanometres(t, face->at.x0, 1);
-        put_nanometres(t, face->at.x1, 1);
-        put_nanometres(t, face->at.y0, 1);
-        put_nanometres(t, face->at.y1, 1);
-        put_nanometres(t, tn_face_glazing(a->house, face), 2);
-        status = give_row(t, TN_TABLE_FACES, a->row, a->context, error);
+        begin_row(a->t);
+        put_face(a, i);
+        status = give_row(a->t, TN_TABLE_FACES, a->row, a->context, error);
     }
     return status;
 }
@@ -461,7 +476,7 @@ static void put_totals(const adding *a)
 static void put_functions(const adding *a)
 {
     const tn_house_form *form = a->house->form;
-    for (uint32_t f = 0; f < form->record->rule_count; f++) {
+    for (uint32_t f = 0; f < tn_form_functions(form); f++) {
         uint32_t count = 0;
         tn_int128 net = 0;
         if (!is_first(form, f))
@@ -513,19 +528,26 @@ static tn_status find_price(const tn_house *house, mpq_t price, mpz_t hundredths
     return status;
 }
 
-static tn_status put_lines(const adding *a, mpz_srcptr rank, tn_error *error)
+static void put_rank(tn_house_tables *t, mpz_srcptr rank)
+{
+    if (!rank) {
+        put_nothing(t);
+        return;
+    }
+    begin_cell(t);
+    tn_buffer_integer(&t->cells, rank);
+    end_cell(t);
+}
+
+static tn_status put_lines(const adding *a, mpz_srcptr rank, mpz_srcptr plan_rank, tn_error *error)
 {
     tn_house_tables *t = a->t;
     tn_buffer plan = {0};
     bool good =
         tn_plan_write_line(t->form->schema, a->house->trays, a->house->length, &plan) && tn_buffer_append(&plan, "", 1);
     put_whole(t, a->number);
-    begin_cell(t);
-    if (rank)
-        tn_buffer_integer(&t->cells, rank);
-    end_cell(t);
-    if (!rank)
-        t->starts[t->cell_count - 1] = SIZE_MAX;
+    put_rank(t, rank);
+    put_rank(t, plan_rank);
     put_text(t, good ? plan.data : "");
     put_whole(t, a->house->length);
     free(plan.data);
@@ -545,7 +567,7 @@ static tn_status put_house_line(const adding *a, tn_error *error)
     return status;
 }
 
-static tn_status add_house(const adding *a, mpz_srcptr rank, tn_error *error)
+static tn_status add_house(const adding *a, mpz_srcptr rank, mpz_srcptr plan, tn_error *error)
 {
     tn_house_tables *t = a->t;
     mpq_t price, shown;
@@ -555,18 +577,18 @@ static tn_status add_house(const adding *a, mpz_srcptr rank, tn_error *error)
     begin_row(t);
     tn_status status = find_price(a->house, price, hundredths, error);
     if (status == TN_OK)
-        status = put_lines(a, rank, error);
+        status = put_lines(a, rank, plan, error);
     put_totals(a);
     for (uint32_t i = 0; i < t->form->record->choice_count; i++)
         put_text(t, tn_house_option(a->house, i));
     put_functions(a);
-    if (status == TN_OK)
-        status = put_measures(a, price, error);
     if (status == TN_OK && tn_form_has_costs(t->form)) {
         mpq_set_z(shown, hundredths);
         mpz_set_ui(mpq_denref(shown), 100);
         put_real(t, shown);
     }
+    if (status == TN_OK)
+        status = put_measures(a, price, error);
     if (status == TN_OK)
         status = put_house_line(a, error);
     mpq_clears(price, shown, NULL);
@@ -584,7 +606,7 @@ static void find_rooms(adding *a)
 }
 
 tn_status tn_house_tables_add(tn_house_tables *t, const tn_house *house, uint64_t number, mpz_srcptr rank,
-                              tn_house_row *row, void *context, tn_error *error)
+                              mpz_srcptr plan, tn_house_row *row, void *context, tn_error *error)
 {
     uint32_t *rooms = NULL;
     tn_status status = tn_house_rooms(house, &rooms, error);
@@ -601,7 +623,7 @@ tn_status tn_house_tables_add(tn_house_tables *t, const tn_house *house, uint64_
     status = a.of && a.numbers ? TN_OK : tn_fail_memory(error);
     if (status == TN_OK) {
         find_rooms(&a);
-        status = add_house(&a, rank, error);
+        status = add_house(&a, rank, plan, error);
     }
     if (status == TN_OK)
         status = add_rooms(&a, error);

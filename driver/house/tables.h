@@ -34,8 +34,9 @@ const tn_house_column *tn_house_table_columns(const tn_house_tables *tables, tn_
 typedef tn_status tn_house_row(void *context, tn_house_table table, const char *const *cells, tn_error *error);
 
 /* Calls `row` with the rows of a house: its own, then its rooms, then its faces. number: that of the house among those
- * that are written; rank: among those of the library, or NULL. */
+ * that are written; rank: among those of the library, or NULL; plan: the rank of its plan, or NULL. Ranks
+ * are texts, since they may have more digits than numbers of databases. */
 tn_status tn_house_tables_add(tn_house_tables *tables, const tn_house *house, uint64_t number, mpz_srcptr rank,
-                              tn_house_row *row, void *context, tn_error *error);
+                              mpz_srcptr plan, tn_house_row *row, void *context, tn_error *error);
 
 #endif

@@ -9,7 +9,13 @@
 #define TN_PARQUET_MAGIC "PAR1" /* the first and the last four bytes */
 #define TN_PARQUET_TAIL 8u      /* bytes behind the footer: its size and the magic */
 
-enum tn_parquet_type { TN_PARQUET_INT32 = 1, TN_PARQUET_INT64 = 2, TN_PARQUET_TEXT = 6, TN_PARQUET_FIXED = 7 };
+enum tn_parquet_type {
+    TN_PARQUET_INT32 = 1,
+    TN_PARQUET_INT64 = 2,
+    TN_PARQUET_DOUBLE = 5,
+    TN_PARQUET_TEXT = 6,
+    TN_PARQUET_FIXED = 7
+};
 
 enum tn_parquet_repetition { TN_PARQUET_REQUIRED = 0, TN_PARQUET_OPTIONAL = 1, TN_PARQUET_REPEATED = 2 };
 

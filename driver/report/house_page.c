@@ -166,8 +166,8 @@ static tn_status fill(compared *c)
 {
     tn_status status = TN_OK;
     for (c->row = 0; status == TN_OK && c->row < c->count; c->row++)
-        status =
-            tn_house_tables_add(c->tables, &c->houses[c->row].house, c->row + 1, NULL, keep_row, c, c->page->error);
+        status = tn_house_tables_add(c->tables, &c->houses[c->row].house, c->row + 1, NULL, NULL, keep_row, c,
+                                     c->page->error);
     return status;
 }
 
@@ -223,7 +223,7 @@ static bool put_compared(const compared *c, const char *name, size_t column, int
 /* Rows that say the same of each house in other words, or nothing to people, are left out. */
 static bool is_shown(const char *name)
 {
-    static const char *const hidden[] = {"house", "rank", "plan", "line"};
+    static const char *const hidden[] = {"house", "rank", "plan_rank", "plan", "line"};
     for (size_t i = 0; i < sizeof hidden / sizeof *hidden; i++)
         if (strcmp(name, hidden[i]) == 0)
             return false;

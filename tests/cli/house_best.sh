@@ -10,7 +10,7 @@ golden best_none_on_plan "tartan best house-measures.plan 1 -l cottages --plan '
 golden best_where 'tartan best house-measures.plan 1 -l cottages --least floor-area --where "quantity(cell(bedroom), n >= 2)"'
 golden best_none 'tartan best house-measures.plan 1 -l cottages --least floor-area --where "quantity(cell(bedroom), n > 90)"'
 golden best_of_plans 'tartan best house-measures.plan 1 -l cottages --least bedroom'
-golden best_database 'tartan best house-measures.plan 1 -l cottages --least bedrooms -o best.sqlite'
+golden best_database 'tartan best house-measures.plan 1 -l cottages --least bedrooms -o best.bin'
 golden best_mirror 'tartan best house-measures.plan 1 -l cottages --least bedrooms --mirror'
 golden best_limit 'tartan best house-measures.plan 1 -l cottages --least bedrooms --max-states 10'
 golden best_bad_plan "tartan best house-measures.plan 1 --plan '#99' --least bedrooms"

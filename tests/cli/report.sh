@@ -142,7 +142,7 @@ for i in range(3):
     near = lambda name, value: abs(float(rows[name][i]) - value) < 0.006
     assert int(rows["rooms"][i]) == len(rooms)
     assert near("net sf", sum(float(r["net_sf"]) for r in rooms)) and near("gross sf", sum(float(r["gross_sf"]) for r in rooms))
-    assert near("glazed sf", sum(float(r["glazed_sf"]) for r in rooms)) and near("price", float(parts[-1]["cost"]))
+    assert near("glazed sf", sum(float(r["glazed_sf"]) for r in rooms)) and near("cost", float(parts[-1]["cost"]))
     for function in ("living", "kitchen", "bath", "bedroom", "stair"):
         of = [float(r["net_sf"]) for r in rooms if r["function"] == function]
         assert int(rows[f"{function} rooms"][i]) == len(of) and near(f"{function} net sf", sum(of)), function

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "runtime/base/file.h"
+#include "runtime/plan/store/tables.h"
 #include "runtime/plan/text/database.h"
 #include "runtime/plan/text/pack.h"
 #include "runtime/plan/text/reader.h"
@@ -146,8 +147,6 @@ static void reader_sqlite_close(tn_plan_reader *reader)
 
 /* ---- writing: a table, and what there is beside it */
 
-#define BUSY_MILLISECONDS 10000 /* how long to wait for somebody who reads the library */
-
 /* Where a file cannot be made, SQLite looks for one to read, and keeps the reason why there is none: asked again. */
 static int why_not_opened(const tn_plan_writer *writer)
 {
@@ -236,7 +235,8 @@ static tn_status create(tn_plan_writer *writer, const tn_plan_metadata *metadata
     tn_writer_metadata(writer, metadata, &room, items);
     tn_status status = run(writer,
                            "BEGIN IMMEDIATE; DROP TABLE IF EXISTS trays; DROP TABLE IF EXISTS plans; "
-                           "DROP TABLE IF EXISTS houses; DROP TABLE IF EXISTS metadata",
+                           "DROP TABLE IF EXISTS houses; DROP TABLE IF EXISTS rooms; DROP TABLE IF EXISTS faces; "
+                           "DROP TABLE IF EXISTS metadata",
                            error);
     if (status == TN_OK)
         status = create_tables(writer, error);
@@ -370,7 +370,7 @@ static tn_status open_database(tn_plan_writer *writer, tn_error *error)
     int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_PRIVATECACHE | SQLITE_OPEN_NOMUTEX;
     if (sqlite3_open_v2(writer->path, &writer->database, flags, NULL) != SQLITE_OK)
         return writer_sqlite_failed(writer, error);
-    sqlite3_busy_timeout(writer->database, BUSY_MILLISECONDS);
+    sqlite3_busy_timeout(writer->database, TN_LIBRARY_BUSY_MILLISECONDS);
     sqlite3_db_config(writer->database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, NULL);
     return run(writer, "PRAGMA cell_size_check = 1", error);
 }
@@ -668,6 +668,10 @@ const tn_plan_database *tn_plan_sqlite(void)
         .write = writer_sqlite_write,
         .close_writer = writer_sqlite_close,
         .free_writer = writer_sqlite_free,
+        .open_tables = tn_tables_open,
+        .add_row = tn_tables_add,
+        .close_tables = tn_tables_close,
+        .free_tables = tn_tables_free,
     };
     return &calls;
 }

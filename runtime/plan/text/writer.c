@@ -86,9 +86,7 @@ static bool append_text(tn_buffer *out, const char *text)
     return tn_buffer_append(out, text, strlen(text));
 }
 
-/* A CSV field: in quotes where it holds a comma, a quote or a line break (RFC 4180); safe: with a mark before what a
- * spreadsheet would compute. A zero byte follows the text. */
-static bool append_field(tn_buffer *out, const char *text, size_t size, bool safe)
+bool tn_writer_csv_field(tn_buffer *out, const char *text, size_t size, bool safe)
 {
     const char *mark = safe && size > 0 && strchr("=+-@", text[0]) ? "'" : "";
     if (strcspn(text, ",\"\r\n") == size)
@@ -101,7 +99,7 @@ static bool append_field(tn_buffer *out, const char *text, size_t size, bool saf
 
 static bool append_cell(const tn_plan_writer *writer, tn_buffer *out, const char *text)
 {
-    return append_text(out, ",") && append_field(out, text, strlen(text), writer->csv_safe);
+    return append_text(out, ",") && tn_writer_csv_field(out, text, strlen(text), writer->csv_safe);
 }
 
 static bool columns_header(tn_plan_writer *writer)
@@ -280,11 +278,11 @@ static bool append_csv(tn_plan_writer *writer, const char *rank, const tn_plan_r
         char total[48];
         tn_length_write_style(tn_writer_total(writer, row->trays, row->length), writer->total_style, total,
                               sizeof total);
-        if (!append_field(out, total, strlen(total), false) || !append_text(out, ","))
+        if (!tn_writer_csv_field(out, total, strlen(total), false) || !append_text(out, ","))
             return false;
     }
     bool done = tn_writer_line(writer, row->trays, row->length, line) &&
-                (line->size == 0 || append_field(out, line->data, line->size, writer->csv_safe));
+                (line->size == 0 || tn_writer_csv_field(out, line->data, line->size, writer->csv_safe));
     for (size_t i = 0; done && i < tn_writer_texts(writer); i++)
         done = append_cell(writer, out, row->texts[i]);
     return done && append_text(out, "\n");

@@ -84,4 +84,8 @@ bool tn_writer_line(const tn_plan_writer *writer, const tn_tray *trays, size_t l
 /* The plan's lengths added up, in nanometres. */
 int64_t tn_writer_total(const tn_plan_writer *writer, const tn_tray *trays, size_t length);
 
+/* Appends a CSV field: in quotes where it holds a comma, a quote or a line break (RFC 4180); safe: with a mark before
+ * what a spreadsheet would compute. A zero byte follows the text. */
+bool tn_writer_csv_field(tn_buffer *out, const char *text, size_t size, bool safe);
+
 #endif
