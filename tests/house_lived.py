@@ -4,10 +4,15 @@
 COUNT houses of each library below, or of that of FILE alone. An independent slow model goes about in each: its cells can be crossed between
 all doors past what stands in them, what is to be kept free is reached, leaves have room, flights stand. Then one comes in from outside, by the
 doors and open sides of the house as it is written, and goes from room to room: every cell is reached, and none of them only through a bath, a
-bedroom or a store; each dwelling has a kitchen, a bath and a bed; there is a flight to each storey, and a door to every store."""
+bedroom or a store; each dwelling has a kitchen, a bath and a bed; there is a flight to each storey, and a door to every store.
+
+In the first house of each library everything that could stand in some of its rooms is set up there, one after another, as the form's text says
+it and the model finds ways past it: that is what `tartan vary` says could stand there."""
 import importlib.util
 import json
 import os
+import random
+import re
 import subprocess
 import sys
 import tempfile
@@ -104,6 +109,83 @@ def lacks(form, house, shared):
     return missing
 
 
+def tiles_of(model, path):
+    """Of each tile: its functions, what it stands against (None: anything), how wide and deep the room may be, its boxes."""
+    tiles = {}
+    for name, functions, body in re.findall(r'\n  tile ([\w-]+)(?:\s+"[^"]*")? for ([\w, -]+?) \{(.*?)\n  \}', model.text_of(path), re.S):
+        against = re.search(r"\n\s+against ([\w -]+)", body)
+        sizes = {word: tuple(map(model.L, bounds)) for word, *bounds in re.findall(rf"\n\s+(wide|deep) ({model.LEN})\.\.({model.LEN})", body)}
+        boxes = re.findall(r'\n\s+(item|keep) ([\w-]+)(?: "[^"]*")? ?([^\n]*)', body)
+        tiles[name] = (set(re.split(r",\s*", functions)), against and set(against[1].split(" or ")), sizes, boxes)
+    return tiles
+
+
+def upright(model, text, floor, ceiling):
+    found = re.search(rf"up ({model.LEN})\.\.({model.LEN})", text)
+    return (floor + model.L(found[1]), floor + model.L(found[2])) if found else (floor, ceiling)
+
+
+def stands(boxes, posts, inner):
+    """Whether all boxes lie within the room, and items meet neither one another nor a kept space or a post."""
+    def apart(a, b):
+        return any(a[k + 1] <= b[k] or b[k + 1] <= a[k] for k in (0, 2, 4))
+    x0, x1, y0, y1 = inner
+    if any(not (x0 <= b[0] < b[1] <= x1 and y0 <= b[2] < b[3] <= y1) for _, _, b in boxes):
+        return False
+    items = [b for kind, _, b in boxes if kind == "item"]
+    kept = [b for kind, _, b in boxes if kind == "keep"]
+    return all(apart(a, b) for i, a in enumerate(items) for b in items[:i] + kept + posts)
+
+
+def layouts(model, form, tiles, house, cell):
+    """The names of all that could stand in the cell; of layouts with the same things in the same places the first."""
+    i, inner, floor = cell["id"], cell["inner"], sum(form["storeys"][:cell["storey"]])
+    ceiling = floor + form["storeys"][cell["storey"]] - form["deck"]
+    sides = {side: set() for side in model.SIDES}
+    for face in house["faces"]:
+        if i in (face["a"], face["b"]) and face["rel"] != "above":
+            sides[face["side"] if face["a"] == i else model.OPPOSITE[face["side"]]].add(face["kind"])
+    posts = [solid["box"] for solid in house["solids"] if solid["kind"] == "post"]
+    others = [solid for solid in house["solids"] if solid["kind"] != "item" or solid["of"] != i]
+    head, now = house["house"].rsplit(" ; ", 1)
+    now = now.split()
+    at = sum(c.get("function") in form["tiled"] for c in house["cells"] if c["id"] < i)
+    seen, found = set(), []
+    for name, (functions, against, sizes, texts) in tiles.items():
+        for side in model.SIDES if cell["function"] in functions else ():
+            across = (inner[1] - inner[0], inner[3] - inner[2])
+            wide, deep = across if side in ("back", "front") else across[::-1]
+            fits = all(low <= size <= high for word, size in (("wide", wide), ("deep", deep)) for low, high in [sizes.get(word, (0, size))])
+            for mirrored in (False, True) if fits and (against is None or sides[side] <= against) else ():
+                boxes = [(kind, item, (*model.placed(text, inner, side, mirrored), *upright(model, text, floor, ceiling))) for kind, item, text in texts]
+                things = frozenset((item, box) for kind, item, box in boxes if kind == "item")
+                if things in seen or not stands(boxes, posts, inner):
+                    continue
+                seen.add(things)
+                label = f"{name}.{side}" + (".m" if mirrored else "")
+                new = [{"kind": "item", "of": i, "box": list(box)} for kind, _, box in boxes if kind == "item"]
+                line = head + " ; " + " ".join(now[:at] + [label] + now[at + 1:])
+                if not model.house(form, {**house, "solids": others + new, "house": line}):
+                    found.append(label)
+    return found
+
+
+def furnish(model, form, path, library, line, scratch):
+    """Rooms of the house, chosen by chance, are furnished in all ways there are."""
+    out, names = os.path.join(scratch, "house.json"), re.findall(r"\n\s*storey ([\w-]+)", model.text_of(path))
+    run("house", path, line, "-o", out)
+    with open(out) as file:
+        house = json.load(file)
+    tiles, tiled = tiles_of(model, path), [cell for cell in house["cells"] if cell.get("function") in form["tiled"]]
+    for cell in random.Random(seed).sample(tiled, min(len(tiled), 4)):
+        place = f"{cell['tray'] + 1}.{cell['zone']}.{names[cell['storey']]}"
+        said = re.findall(rf"  {re.escape(place)}: (\S+\.\S+) for (\S+\.[^\s,]+)", run("vary", path, line, "--library", library, "--at", place))
+        now = house["house"].rsplit(" ; ", 1)[1].split()[sum(c.get("function") in form["tiled"] for c in house["cells"] if c["id"] < cell["id"])]
+        got, wanted = {new for new, _ in said} | {now}, set(layouts(model, form, tiles, house, cell))
+        if got != wanted:
+            failures.append(f"{os.path.basename(path)}: {place}: {sorted(got)}, and not {sorted(wanted)}: {line}")
+
+
 def live_in(model, form, path, line, shared, scratch):
     out = os.path.join(scratch, "house.json")
     run("house", path, line, "-o", out)
@@ -128,6 +210,8 @@ def main():
                 lived += len(lines)
                 if len(lines) != many:
                     failures.append(f"{name}: {len(lines)} houses of {many}")
+                for line in lines[:1]:
+                    furnish(model, form, path, library, line, scratch)
                 for line in lines:
                     live_in(model, form, path, line, shared, scratch)
     print("\n".join(failures[:20]))
