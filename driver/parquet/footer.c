@@ -400,6 +400,8 @@ static void write_columns(const tn_parquet_writing *w, tn_thrift_out *t)
     }
     if (w->has_lines)
         write_text(t, "plan");
+    if (w->has_rank_texts)
+        write_text(t, "rank_text");
 }
 
 /* ---- statistics */
@@ -474,6 +476,8 @@ static void write_path(const tn_parquet_writing *w, unsigned column, tn_thrift_o
     bool is_list = column >= first && column - first < w->schema->field_count;
     if (is_list)
         tn_field_column(w->schema, column - first, TN_COLUMNS_PARQUET, name);
+    else if (w->has_rank_texts && column == tn_rank_texts_column(w))
+        strcpy(name, "rank_text");
     else if (column < first)
         strcpy(name, column == 0 ? "rank" : column == 1 ? "length" : "total");
     tn_thrift_list(t, 3, TN_THRIFT_BINARY, is_list ? 3 : 1);

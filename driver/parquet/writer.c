@@ -181,7 +181,11 @@ static tn_status end_numbers(tn_parquet_writing *w, tn_error *error)
         status = end_body(w, 1, tn_numbers_page(&w->length, &w->body), w->in_page, error);
     if (status == TN_OK && w->has_total)
         status = end_body(w, 2, tn_numbers_page(&w->total, &w->body), w->in_page, error);
-    return status;
+    if (status != TN_OK || !w->has_rank_texts)
+        return status;
+    tn_buffer_append(&w->body, w->rank_texts.data, w->rank_texts.size);
+    w->rank_texts.size = 0;
+    return end_body(w, tn_rank_texts_column(w), TN_ENCODING_PLAIN, w->in_page, error);
 }
 
 /* ---- lists */
@@ -248,7 +252,7 @@ static tn_status parquet_end_lines(tn_parquet_writing *w, tn_error *error)
     tn_buffer_append(&w->body, w->lines.data, w->lines.size);
     size_t count = w->line_count;
     w->lines.size = w->line_count = 0;
-    return end_body(w, tn_column_count(w) - 1, TN_ENCODING_PLAIN, count, error);
+    return end_body(w, tn_lines_column(w), TN_ENCODING_PLAIN, count, error);
 }
 
 /* Compresses the page in hand, and begins another. */
@@ -299,6 +303,7 @@ static bool parquet_dictionary(tn_parquet_writing *w, unsigned column, size_t *v
 /* ---- writes plans in Parquet */
 
 #define GROUP_DEFAULT 1000000u
+#define DECIMAL_DIGITS 38u            /* of decimal numbers of most programs; ranks of more are written as texts, too */
 #define PAGE_PLANS 32768u             /* plans of a page at most */
 #define PAGE_TRAYS ((size_t)1 << 18)  /* trays, and a plan more */
 #define LINES_BYTES ((size_t)1 << 20) /* plan lines of a page, and one more */
@@ -320,6 +325,7 @@ static void choose_rank(tn_parquet_writing *w, mpz_srcptr ranks)
     mpz_init(most);
     mpz_sub_ui(most, ranks, 1);
     w->rank_digits = (unsigned)tn_decimal_digits(most);
+    w->has_rank_texts = w->rank_digits > DECIMAL_DIGITS;
     mpz_ui_pow_ui(most, 10, w->rank_digits);
     w->rank_bytes = (unsigned)(mpz_sizeinbase(most, 2) / 8 + 1);
     mpz_clear(most);
@@ -476,11 +482,22 @@ static bool compare_rank(tn_parquet_writing *w)
     return done;
 }
 
+static bool add_rank_text(tn_parquet_writing *w, const mpz_t rank)
+{
+    size_t begin = w->rank_texts.size;
+    if (!tn_buffer_append(&w->rank_texts, "\0\0\0", 4))
+        return false;
+    tn_buffer_integer(&w->rank_texts, rank);
+    if (!w->rank_texts.failed)
+        tn_put_u32((uint8_t *)w->rank_texts.data + begin, (uint32_t)(w->rank_texts.size - begin - 4));
+    return !w->rank_texts.failed;
+}
+
 static tn_status add_rank(tn_parquet_writing *w, const mpz_t rank, tn_error *error)
 {
     if (w->rank_bytes > 0 ? mpz_sizeinbase(rank, 2) >= 8 * (size_t)w->rank_bytes : mpz_sizeinbase(rank, 2) > 63)
         return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a rank is larger than the column of ranks was made for");
-    bool done = encode_rank(w, rank) && compare_rank(w);
+    bool done = encode_rank(w, rank) && compare_rank(w) && (!w->has_rank_texts || add_rank_text(w, rank));
     return done ? TN_OK : tn_fail_memory(error);
 }
 
@@ -585,8 +602,8 @@ void tn_parquet_writer_free(tn_plan_writer *writer)
     tn_parquet_writing *w = writing_of(writer);
     if (!w)
         return;
-    tn_buffer *buffers[] = {&w->about_groups, &w->created_by, &w->metadata,  &w->wide_ranks, &w->lines,
-                            &w->least_rank,   &w->most_rank,  &w->this_rank, &w->body};
+    tn_buffer *buffers[] = {&w->about_groups, &w->created_by, &w->metadata,  &w->wide_ranks, &w->rank_texts,
+                            &w->lines,        &w->least_rank, &w->most_rank, &w->this_rank,  &w->body};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         free(buffers[i]->data);
     for (unsigned c = 0; c < TN_PARQUET_COLUMNS_MAX; c++)

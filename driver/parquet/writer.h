@@ -40,7 +40,7 @@ void tn_numbers_clear(tn_numbers *numbers);
 
 /* Inside of the writer of Parquet: what it holds of a file. */
 
-enum { TN_PARQUET_COLUMNS_MAX = TN_FIELDS_MAX + 4 };
+enum { TN_PARQUET_COLUMNS_MAX = TN_FIELDS_MAX + 5 };
 
 /* A column's pages of the row group in hand. */
 typedef struct tn_chunk {
@@ -71,7 +71,9 @@ typedef struct tn_parquet_writing {
     tn_numbers length, total;
     tn_buffer lines; /* each behind its size */
     size_t line_count;
+    tn_buffer rank_texts; /* the same of the page in hand */
     bool has_total, has_lines;
+    bool has_rank_texts; /* ranks have more digits than decimal numbers of other programs */
 
     /* The row group in hand. */
     tn_chunk chunks[TN_PARQUET_COLUMNS_MAX];
@@ -91,7 +93,18 @@ static inline unsigned tn_first_field_column(const tn_parquet_writing *w)
 
 static inline unsigned tn_column_count(const tn_parquet_writing *w)
 {
-    return tn_first_field_column(w) + w->schema->field_count + w->has_lines;
+    return tn_first_field_column(w) + w->schema->field_count + w->has_lines + w->has_rank_texts;
+}
+
+/* Behind the fields: lines, then texts of ranks. */
+static inline unsigned tn_lines_column(const tn_parquet_writing *w)
+{
+    return tn_first_field_column(w) + w->schema->field_count;
+}
+
+static inline unsigned tn_rank_texts_column(const tn_parquet_writing *w)
+{
+    return tn_lines_column(w) + w->has_lines;
 }
 
 /* What the footer says of a column of a row group (footer.c). */

@@ -25,6 +25,28 @@ far='--trays 60 --from 1000000000000000000000000000000 --limit 40'
 enumerate $far -o "$scratch/far.parquet" --row-group 9
 # shellcheck disable=SC2086
 back "$scratch/far.parquet" | cmp - <(enumerate $far) || fail 'ranks of 31 digits'
+grep -q rank_text "$scratch/far.parquet" && fail 'ranks of 31 digits are texts, too'
+
+# Ranks past the 38 digits of decimal numbers are texts, too: what DuckDB reads of them, where node finds it, is what CSV has.
+farther='--trays 80 --from 1000000000000000000000000000000000000000000000 --limit 40000'
+# shellcheck disable=SC2086
+enumerate $farther -o "$scratch/farther.parquet" --plan-lines --row-group 35000
+# shellcheck disable=SC2086
+enumerate $farther -f csv | cut -d , -f 1 | tail -n +2 >"$scratch/ranks"
+# shellcheck disable=SC2086
+back --trays 0..80 "$scratch/farther.parquet" | cmp - <(enumerate $farther) || fail 'ranks of 46 digits'
+grep -q rank_text "$scratch/farther.parquet" || fail 'ranks of 46 digits are no texts'
+if node -e 'require("@duckdb/node-api")' 2>/dev/null; then
+    node - "$scratch/farther.parquet" <<'NODE' | cmp - "$scratch/ranks" || fail 'DuckDB reads other ranks'
+const {DuckDBInstance} = require('@duckdb/node-api')
+async function ask() {
+  const connection = await (await DuckDBInstance.create(':memory:')).connect()
+  const rows = (await connection.runAndReadAll(`SELECT rank_text FROM read_parquet('${process.argv[2]}')`)).getRows()
+  console.log(rows.map((row) => row[0]).join('\n'))
+}
+ask()
+NODE
+fi
 "$TARTAN" sample "$sheds" 30 -l any-sheds --trays 0..20 --seed 3 -o "$scratch/some.parquet"
 back "$scratch/some.parquet" | cmp - <("$TARTAN" sample "$sheds" 30 -l any-sheds --trays 0..20 --seed 3) || fail 'sample'
 is 'match reads it' "$("$TARTAN" match "$sheds" "$scratch/some.parquet" --rule door-pair | wc -l)" \

@@ -11,9 +11,10 @@ static const char *field_name(const tn_schema *schema, uint32_t field)
 
 static bool is_own(const char *name, tn_column_file file)
 {
-    static const char *const own[TN_COLUMN_FILES][4] = {
-        [TN_COLUMNS_CSV] = {"rank", "tray", "plan"}, [TN_COLUMNS_PARQUET] = {"rank", "length", "total", "plan"}};
-    for (size_t i = 0; i < 4 && own[file][i]; i++)
+    static const char *const own[TN_COLUMN_FILES][5] = {
+        [TN_COLUMNS_CSV] = {"rank", "tray", "plan"},
+        [TN_COLUMNS_PARQUET] = {"rank", "length", "total", "plan", "rank_text"}};
+    for (size_t i = 0; i < 5 && own[file][i]; i++)
         if (strcasecmp(name, own[file][i]) == 0)
             return true;
     return false;
