@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/plan/searched.h"
 #include "ask/session/questions.h"
 #include "driver/open/digits.h"
 #include "driver/plan/library.h"
@@ -270,6 +271,64 @@ static tn_status take_wishes(searching *s)
     return tn_wishes_of_plans(s->session, s->ready, &preferred, 1, 1, &s->wishes);
 }
 
+/* ---- plans that are searched, by one measure */
+
+static tn_status note_bound(const searching *s, mpq_t bound, tn_reply *answer, tn_error *error)
+{
+    tn_found_plans *plans = TN_REPLY(found_plans, answer);
+    char *text = tn_wish_text(&s->wishes, 0, bound);
+    if (!text)
+        return tn_fail_memory(error);
+    tn_session_note(s->session, "it is not proven that these are the best within %s: no plan has %s than %s",
+                    "--max-conflicts", s->wishes.most[0] ? "more" : "less", text);
+    free(text);
+    if (plans) {
+        plans->has_bound = true;
+        mpq_set(plans->bound, bound);
+        tn_amount_convert(s->wishes.units[0], plans->bound);
+    }
+    return TN_OK;
+}
+
+static tn_status give_searched(searching *s, const tn_searched_plans *plans, tn_finds *finds, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < plans->count; i++) {
+        mpq_set(s->values[0], plans->items[i].value);
+        const tn_found_one found = {
+            .trays = plans->items[i].trays, .length = plans->items[i].length, .values = s->values};
+        status = tn_finds_give(finds, &found, error);
+    }
+    return status;
+}
+
+static tn_status best_searched(searching *s, const tn_error *limit, tn_finds *finds, tn_error *error)
+{
+    const tn_module *module = s->session->opened->module;
+    const tn_search_options options = tn_asked_search(&s->request->subject, &s->request->search);
+    uint32_t sum = tn_named_measure_sum(module, s->ready->record, s->wishes.measures[0]);
+    uint64_t wanted = s->request->has_count ? s->request->count : TN_BEST_DEFAULT;
+    tn_searched_plans plans = {0};
+    tn_search_proof proof = {.proven = true};
+    tn_plan_search *search;
+    mpq_init(proof.bound);
+    tn_searched_note(s->session, limit);
+    tn_status status = tn_plan_search_new(s->ready->schema, s->ready->index, &options, &search, error);
+    if (status == TN_OK) {
+        status = tn_plan_search_best(search, sum, s->wishes.most[0], (size_t)wanted, &plans, &proof, error);
+        tn_plan_search_free(search);
+    }
+    if (status == TN_OK)
+        status = tn_finds_begin(finds, error);
+    if (status == TN_OK && !proof.proven)
+        status = note_bound(s, proof.bound, finds->answer, error);
+    if (status == TN_OK && !finds->ended)
+        status = give_searched(s, &plans, finds, error);
+    tn_searched_plans_clear(&plans);
+    mpq_clear(proof.bound);
+    return status;
+}
+
 static tn_status best_plans(tn_session *session, const tn_best_request *request, tn_reply *answer)
 {
     searching s = {.session = session, .request = request};
@@ -277,18 +336,27 @@ static tn_status best_plans(tn_session *session, const tn_best_request *request,
     tn_error error;
     if (request->diverse && wanted > TN_DIVERSE_MAX)
         return refuse_many(session, wanted, TN_DIVERSE_MAX, "plans");
-    tn_status status = tn_session_library(session, &request->subject, &s.ready);
+    bool simple = request->by.count <= 1 && !request->diverse && !request->mirror; /* enough to be searched */
+    tn_error limit;
+    tn_status status = simple ? tn_session_searched(session, &request->subject, false, &s.ready, &limit)
+                              : tn_session_library(session, &request->subject, &s.ready);
     if (status == TN_OK)
         status = take_wishes(&s);
     if (status != TN_OK)
         return status;
-    tn_found_of of = {.plans = s.ready, .wishes = &s.wishes};
+    bool searched = !s.ready->library;
+    if (searched && tn_named_measure_over(session->opened->module, s.wishes.measures[0]) != TN_NO_RECORD)
+        return tn_session_fail(session, &limit);
+    tn_found_of of = {.plans = s.ready, .wishes = &s.wishes, .unranked = searched};
     tn_finds finds = {.session = session, .of = &of, .answer = answer, .lines = request->lines};
     wishes_room(s.values);
-    status = prepare(&s, &error);
-    if (status == TN_OK)
+    if (searched)
+        status = best_searched(&s, &limit, &finds, &error);
+    else
+        status = prepare(&s, &error);
+    if (status == TN_OK && !searched)
         status = tn_finds_begin(&finds, &error);
-    if (status == TN_OK && !finds.ended)
+    if (status == TN_OK && !searched && !finds.ended)
         status = (request->diverse ? give_diverse : give_plans)(&s, wanted, &finds, &error);
     clear(&s);
     return tn_finds_end(&finds, status, &error);

@@ -172,7 +172,7 @@ static bool begins(void *context, tn_found_of *of)
     s->ready = of->plans;
     s->schema = of->plans->schema;
     s->library = of->plans->record;
-    s->ranked = true;
+    s->ranked = !of->unranked;
     if (of->wishes)
         s->wishes = *of->wishes;
     return true;
@@ -192,6 +192,15 @@ static char *caption_of(const sheet *s, const tn_found_one *found)
     return NULL;
 }
 
+/* Its rank; of a plan without one, how many are drawn with it. NULL: out of memory. */
+static char *number_of(const sheet *s, const tn_found_one *found)
+{
+    tn_buffer number = {0};
+    if (found->rank)
+        return mpz_get_str(NULL, 10, found->rank);
+    return tn_buffer_printf(&number, "%zu", s->drawn.count + 1) ? number.data : NULL;
+}
+
 static bool takes(void *context, const tn_found_one *found)
 {
     sheet *s = context;
@@ -199,25 +208,31 @@ static bool takes(void *context, const tn_found_one *found)
     if (s->wishes.count && !caption)
         s->taken = tn_fail_memory(&s->error);
     else
-        s->taken = tn_sheet_add(&s->drawn, found->trays, found->length, mpz_get_str(NULL, 10, found->rank), NULL,
-                                caption, &s->error);
+        s->taken = tn_sheet_add(&s->drawn, found->trays, found->length, number_of(s, found), NULL, caption, &s->error);
     return s->taken == TN_OK;
 }
 
-/* How many plans the library keeps (malloc); NULL: out of memory. */
-static char *kept_digits(const sheet *s)
+/* " of 5,000 plans", as many as the library keeps; or " plans found by search" (malloc). NULL: out of memory. */
+static char *kept_words(const sheet *s)
 {
+    tn_buffer words = {0};
     mpz_t kept;
+    if (!s->ready->library)
+        return strdup(" plans found by search");
     mpz_init(kept);
     tn_library_kept(s->ready->library, TN_ALL_LENGTHS, kept);
     char *digits = tn_digits(kept, true);
+    bool ok = digits && tn_buffer_printf(&words, " of %s plans", digits);
+    free(digits);
     mpz_clear(kept);
-    return digits;
+    return ok ? words.data : NULL;
 }
 
 static void note_library(sheet *s)
 {
     char hash[33];
+    if (!s->ready->library)
+        return;
     tn_library_hash(s->ready->library, hash);
     snprintf(s->notes[s->note_count++], NOTE_SIZE, "library %s", hash);
 }
@@ -254,22 +269,21 @@ static tn_status find_best(sheet *s, tn_reply *found)
 static tn_status note_found(sheet *s)
 {
     const tn_wishes *wishes = &s->wishes;
-    char *digits = kept_digits(s);
+    char *kept = kept_words(s);
     tn_buffer text = {0};
-    bool best = s->request->has_best, ok = digits != NULL;
+    bool best = s->request->has_best, ok = kept != NULL;
     if (ok)
-        ok = best ? tn_buffer_printf(&text, "%s%zu of %s plans with the ",
+        ok = best ? tn_buffer_printf(&text, "%s%zu%s with the ",
                                      s->request->diverse ? "plans that differ, among the best: " : "the ",
-                                     s->drawn.count, digits)
-                  : tn_buffer_printf(&text, "%zu of %s plans, drawn with seed %" PRIu64, s->drawn.count, digits,
-                                     s->request->seed);
+                                     s->drawn.count, kept)
+                  : tn_buffer_printf(&text, "%zu%s, drawn with seed %" PRIu64, s->drawn.count, kept, s->request->seed);
     for (uint32_t k = 0; ok && best && k < wishes->count; k++)
         ok = tn_buffer_printf(&text, "%s%s %s", k ? ", then the " : "", wishes->most[k] ? "most" : "least",
                               wishes->names[k]);
     if (ok)
         snprintf(s->notes[s->note_count++], NOTE_SIZE, "%s", text.data);
     free(text.data);
-    free(digits);
+    free(kept);
     return ok ? TN_OK : tn_fail_memory(&s->error);
 }
 
@@ -807,9 +821,8 @@ tn_status tn_draw_check(tn_session *session, const tn_draw_request *request)
 /* A file for drawing programs shows nothing by what covers it. */
 static tn_status check_dxf(tn_session *session, const tn_draw_request *r)
 {
-    bool dxf = tn_draw_format(r) == TN_FILE_DXF,
-         plans = tn_subject_of(session->opened->module) == TN_SUBJECT_PLANS && !of_houses(session, r) &&
-                 !r->rules.count && !r->front;
+    bool dxf = tn_draw_format(r) == TN_FILE_DXF, plans = tn_subject_of(session->opened->module) == TN_SUBJECT_PLANS &&
+                                                         !of_houses(session, r) && !r->rules.count && !r->front;
     if (dxf && !plans)
         return tn_session_refuse(session,
                                  "end its name in .svg, .png or .pdf; `tartan house` and `tartan mesh` "

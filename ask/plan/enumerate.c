@@ -228,7 +228,7 @@ static tn_status enumerate_plans(tn_session *session, const tn_enumerate_request
     enumeration e = {.session = session, .request = request, .limit = enumerate_limit(session, request)};
     tn_error limit;
     tn_status status = request->ways ? tn_session_library(session, &request->subject, &e.ready)
-                                     : tn_session_searched(session, &request->subject, &e.ready, &limit);
+                                     : tn_session_searched(session, &request->subject, false, &e.ready, &limit);
     if (status != TN_OK)
         return status;
     mpz_inits(e.rank, e.to, NULL);

@@ -116,7 +116,9 @@ static tn_status add_plan(const tn_finds *finds, const tn_found_one *found, tn_e
     if (!plan)
         return TN_MEMORY;
     const tn_wishes *wishes = finds->of->wishes;
-    mpz_set(plan->rank, found->rank);
+    plan->has_rank = found->rank != NULL;
+    if (found->rank)
+        mpz_set(plan->rank, found->rank);
     plan->has_plan = finds->lines;
     plan->has_ways = found->ways != NULL;
     if (found->ways)

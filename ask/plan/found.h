@@ -20,7 +20,7 @@ typedef struct tn_wishes {
 
 /* A plan or a house. All is borrowed until the next is found, but a house may be taken: then an empty one is left. */
 typedef struct tn_found_one {
-    mpz_srcptr rank; /* of a plan in its library; of a house among those that are asked for, or NULL: not known */
+    mpz_srcptr rank; /* of a plan in its library; of a house among those that are asked for; NULL: not known */
     const tn_tray *trays;
     uint32_t length;
     tn_house *house;    /* NULL: it is a plan */
@@ -41,6 +41,7 @@ typedef struct tn_found_of {
     uint64_t before;         /* how many of its limit `begins` has already */
     bool ways;               /* of each plan are told, too */
     mpz_srcptr rows;         /* rows of plans are found, so many in all; or NULL */
+    bool unranked;           /* ranks are not known */
     mpq_srcptr weight;       /* of a sample that is drawn by weights: of all plans; or NULL */
 } tn_found_of;
 

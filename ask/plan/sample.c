@@ -5,6 +5,7 @@
 
 #include "ask/house/numbered.h"
 #include "ask/plan/plan_rows.h"
+#include "ask/plan/searched.h"
 #include "ask/plan/weights.h"
 #include "ask/session/questions.h"
 #include "driver/open/digits.h"
@@ -226,14 +227,81 @@ static tn_status give_plans(const drawing *d, tn_finds *finds, tn_error *error)
     return status;
 }
 
+/* ---- plans that are searched */
+
+static tn_status search_plans(tn_plan_search *search, const tn_sample_request *r, tn_searched_plans *plans,
+                              tn_error *error)
+{
+    uint32_t first = r->has_length ? (uint32_t)r->length : 0, last = r->has_length ? (uint32_t)r->length : UINT32_MAX;
+    if (!r->has_per_length)
+        return tn_plan_search_sample(search, r->seed, first, last, (size_t)r->count, plans, error);
+    tn_status status = TN_OK;
+    tn_plan_search_lengths(search, &first, &last);
+    for (uint32_t l = first; status == TN_OK && l <= last; l++)
+        status = tn_plan_search_sample(search, r->seed, l, l, (size_t)r->per_length, plans, error);
+    return status;
+}
+
+static tn_status give_searched(const tn_searched_plans *plans, tn_finds *finds, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < plans->count; i++)
+        status = tn_finds_give(finds, &(tn_found_one){.trays = plans->items[i].trays, .length = plans->items[i].length},
+                               error);
+    return status;
+}
+
+static void note_searched(tn_session *session, const tn_sample_request *r, const tn_ready_library *ready,
+                          const tn_error *limit)
+{
+    tn_searched_note(session, limit);
+    tn_session_note(session, "not each plan is as likely as each, and their ranks are not known");
+    if (ready->record->weight_count > 0 && !r->uniform)
+        tn_session_note(session, "the weights of `%s` are left out of account",
+                        tn_text(session->opened->module, ready->record->name));
+}
+
+static tn_status sample_searched(tn_session *session, const tn_sample_request *request, const tn_ready_library *ready,
+                                 const tn_error *limit, tn_reply *answer)
+{
+    tn_search_options options = tn_asked_search(&request->subject, &request->search);
+    tn_found_of of = {.plans = ready, .unranked = true};
+    tn_finds finds = {.session = session, .of = &of, .answer = answer, .lines = request->lines};
+    tn_searched_plans plans = {0};
+    tn_plan_search *search;
+    tn_error error;
+    options.all_generated = request->generated;
+    note_searched(session, request, ready, limit);
+    tn_status status = tn_plan_search_new(ready->schema, ready->index, &options, &search, &error);
+    if (status != TN_OK)
+        return tn_session_fail(session, &error);
+    status = search_plans(search, request, &plans, &error);
+    if (status == TN_OK && !request->has_per_length && plans.count < request->count)
+        tn_session_note(session, "the library holds %zu plan%s%s, fewer than the %zu asked for: these are all",
+                        plans.count, plans.count == 1 ? "" : "s", request->has_length ? " of this length" : "",
+                        (size_t)request->count);
+    if (status == TN_OK)
+        status = tn_finds_begin(&finds, &error);
+    if (status == TN_OK && !finds.ended)
+        status = give_searched(&plans, &finds, &error);
+    tn_searched_plans_clear(&plans);
+    tn_plan_search_free(search);
+    return tn_finds_end(&finds, status, &error);
+}
+
+/* What differs, and in how many ways plans are derived, is found by the library's automaton alone. */
 static tn_status sample_plans(tn_session *session, const tn_sample_request *request, tn_reply *answer)
 {
     const tn_ready_library *ready;
-    tn_error error;
+    tn_error error, limit;
     tn_status status =
-        (request->generated ? tn_session_generated : tn_session_library)(session, &request->subject, &ready);
+        !request->diverse && !request->ways
+            ? tn_session_searched(session, &request->subject, request->generated, &ready, &limit)
+            : (request->generated ? tn_session_generated : tn_session_library)(session, &request->subject, &ready);
     if (status != TN_OK)
         return status;
+    if (!ready->library)
+        return sample_searched(session, request, ready, &limit, answer);
     if (request->diverse && !request->uniform && ready->record->weight_count > 0)
         return refuse_diverse(session, ready);
     tn_found_of of = {.plans = ready, .ways = request->ways};

@@ -211,10 +211,11 @@ tn_status tn_session_library(tn_session *session, const tn_library_asked *asked,
     return make_ready(session, asked->library, &options, ready, NULL);
 }
 
-tn_status tn_session_searched(tn_session *session, const tn_library_asked *asked, const tn_ready_library **ready,
-                              tn_error *limit)
+tn_status tn_session_searched(tn_session *session, const tn_library_asked *asked, bool all_generated,
+                              const tn_ready_library **ready, tn_error *limit)
 {
-    const tn_library_options options = tn_asked_options(asked);
+    tn_library_options options = tn_asked_options(asked);
+    options.all_generated = all_generated;
     return make_ready(session, asked->library, &options, ready, limit);
 }
 

@@ -18,6 +18,7 @@ typedef struct best_settings {
     tn_option_list wanted; /* wishes */
     bool mirror, diverse;
     const char *plan;
+    tn_search_settings search;
 } best_settings;
 
 static const best_settings *settings_of(const tn_job *job)
@@ -71,7 +72,8 @@ static tn_status write_json(listing *l, const tn_found_one *found, tn_error *err
     if (found->house) {
         tn_json_string(&json, "house", line);
     } else {
-        tn_json_digits(&json, "rank", found->rank);
+        if (found->rank)
+            tn_json_digits(&json, "rank", found->rank);
         tn_plan_write_trays(l->of.plans->schema, found->trays, found->length, &json);
     }
     tn_json_object_end(&json);
@@ -229,7 +231,8 @@ static void find_best(tn_job *job, uint64_t wanted)
                                      .count = wanted,
                                      .plan = settings->plan,
                                      .diverse = settings->diverse,
-                                     .mirror = settings->mirror};
+                                     .mirror = settings->mirror,
+                                     .search = tn_search_settings_asked(&settings->search)};
     (houses ? find_houses : find_plans)(job, &request);
 }
 
@@ -267,6 +270,7 @@ static const tn_option options[] = {
         "write to FILE instead of standard output, as its ending says: .json, .csv, .bin, .sqlite and .db, .parquet, "
         "or .svg, .png and .pdf, a picture; otherwise as lines"),
     OPTIONS_LIBRARY_LIMITS,
+    OPTIONS_SEARCH,
 };
 
 const tn_command tn_command_best = {
@@ -283,7 +287,9 @@ const tn_command tn_command_best = {
         "clauses) are the best by `preference`, the most first. They are found from the library's automaton; no other "
         "plan is "
         "looked "
-        "at. In lines, a comment before each plan has its values and its rank; in JSON, \"value\" or \"values\" has "
+        "at. If that passes a limit, the best by one measure are found by search, and a note says if it is not proven "
+        "that there is no better one. In lines, a comment before each plan has its values and its rank; in JSON, "
+        "\"value\" or \"values\" has "
         "them exactly, in feet or metres. With -o and the name of a picture (.svg, .png or .pdf) the plans are drawn, "
         "each "
         "with its place and its values. With --diverse they are plans that differ, as `tartan sample --diverse` "

@@ -73,6 +73,19 @@ enum { LOOK_EVERY = 4096 };
 
 /* ---- opened */
 
+/* Plans without ranks are written as lines, JSON or packed. */
+static bool says_no_ranks(const tn_found_rows *rows)
+{
+    tn_plan_format format = (tn_plan_format)rows->settings->format;
+    if (format != TN_FORMAT_CSV && format != TN_FORMAT_SQLITE && format != TN_FORMAT_PARQUET)
+        return true;
+    tn_help(tn_job_diagnostics(rows->job),
+            tn_job_usage(rows->job,
+                         "these plans are found by search, and their ranks, which this format has, are not known"),
+            "write lines or JSON");
+    return false;
+}
+
 static bool open_plans(tn_found_rows *rows)
 {
     static const tn_row_columns ways = {
@@ -83,10 +96,12 @@ static bool open_plans(tn_found_rows *rows)
     char command[400];
     tn_provenance described;
     mpz_t ranks;
-    mpz_init(ranks);
     snprintf(command, sizeof command, "%s%s%s%s%s", rows->made, settings->columns ? " --columns" : "",
              rows->of.ways ? " --ways" : "", rows->of.rows ? " --plans" : "", rows->of.weight ? " (by weight)" : "");
     tn_provenance_describe(&rows->job->opened, ready, rows->job->settings->operands.items[0], command, &described);
+    if (rows->of.unranked && !says_no_ranks(rows))
+        return false;
+    mpz_init(ranks);
     bool counted = rows->of.rows || ready->library;
     if (rows->of.rows)
         mpz_set(ranks, rows->of.rows);

@@ -20,6 +20,7 @@ typedef struct sample_settings {
     bool ways;
     bool rows; /* of plans */
     const char *plan;
+    tn_search_settings search;
 } sample_settings;
 
 static const sample_settings *settings_of(const tn_job *job)
@@ -54,7 +55,8 @@ static void sample(tn_job *job, size_t wanted)
                                        .uniform = s->uniform,
                                        .ways = s->ways,
                                        .plans = s->rows,
-                                       .plan = s->plan};
+                                       .plan = s->plan,
+                                       .search = tn_search_settings_asked(&s->search)};
     tn_found_rows rows;
     tn_reply answer;
     char made[128];
@@ -169,6 +171,7 @@ static const tn_option options[] = {
     OPTION_ROW_GROUP,
     OPTION_PLAN_OUTPUT,
     OPTIONS_LIBRARY_LIMITS,
+    OPTIONS_SEARCH,
 };
 
 const tn_command tn_command_sample = {
@@ -189,7 +192,9 @@ const tn_command tn_command_sample = {
         "chooses among 20 N houses (200 at least), each next one as far as can be from those before: by their plans, "
         "then storeys, roofs and other choices, then which functions there are, then where these are, then faces, then "
         "tiles. The same "
-        "file, seed and options give the same plans on every machine. With --shards M and -o SET a shard set is made, "
+        "file, seed and options give the same plans on every machine. If the library's automaton passes a limit, plans "
+        "are found by search, guessing at random: not each with the same probability, and without ranks. With --shards "
+        "M and -o SET a shard set is made, "
         "whose workers draw the same plans on any number of machines; see `tartan help shards`.",
     .example = "$ tartan sample lahave-houses 1000 --seed 7 -o sample.sqlite",
     .options = options,

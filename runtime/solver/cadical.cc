@@ -52,6 +52,7 @@ tn_status make_solver(tn_solver **solver, tn_error *error)
         [&] {
             *solver = new tn_solver;
             (*solver)->cadical.set("quiet", 1);
+            (*solver)->cadical.set("lucky", 0); /* what is preferred is guessed first */
         },
         error);
 }
@@ -70,6 +71,16 @@ tn_status add_clause(tn_solver *solver, const int *literals, size_t count, tn_er
                 solver->cadical.add(literals[i]);
             }
             solver->cadical.add(0);
+        },
+        error);
+}
+
+tn_status prefer(tn_solver *solver, int literal, tn_error *error)
+{
+    return guarded(
+        [&] {
+            solver->largest = std::max(solver->largest, std::abs(literal));
+            solver->cadical.phase(literal);
         },
         error);
 }
@@ -111,7 +122,7 @@ bool has_failed(tn_solver *solver, int assumed)
 
 const tn_solver_calls *tn_solver_cadical(tn_error *error)
 {
-    static const tn_solver_calls calls = {make_solver, free_solver, add_clause, solve, value_of, has_failed};
+    static const tn_solver_calls calls = {make_solver, free_solver, add_clause, prefer, solve, value_of, has_failed};
     (void)error;
     return &calls;
 }

@@ -33,6 +33,9 @@ typedef struct tn_solver_calls {
     /* Adds a clause: at least one of the literals is true. */
     tn_status (*clause)(tn_solver *solver, const int *literals, size_t count, tn_error *error);
 
+    /* Where the literal's variable has to be guessed, it is guessed so from now on. */
+    tn_status (*prefer)(tn_solver *solver, int literal, tn_error *error);
+
     /* Can all clauses be true, with all of the assumed literals? */
     tn_status (*solve)(tn_solver *solver, const int *assumed, size_t count, const tn_solver_limits *limits,
                        tn_solver_answer *answer, tn_error *error);

@@ -47,6 +47,42 @@ enumerate seven.plan --max-states 20 | "$TARTAN" prune seven.plan --engine vm | 
 # A clause that is too large for gates is judged plan by plan.
 enumerate seven.plan --max-states 20 --max-gates 3000 --limit 2 | cmp - <(enumerate seven.plan --limit 2) || fail 'other plans with few gates'
 
+# Drawn: different plans of the library, the same for the same seed; all of them, if there are no more.
+sample() {
+    "$TARTAN" sample seven.plan "$@" --max-states 20 2>said
+}
+sample 20 --seed 4 >drawn
+is 'drawn' "$(sort -u drawn | wc -l)" 20
+"$TARTAN" prune seven.plan --engine vm <drawn | cmp - drawn || fail 'some that are drawn are not kept'
+grep -q 'not each plan is as likely as each' said || fail "nothing is said of likelihood: $(<said)"
+sample 20 --seed 4 | cmp - drawn || fail 'the same seed draws others'
+sample 20 --seed 5 | cmp -s - drawn && fail 'another seed draws the same'
+sample 100 | cmp - <(enumerate seven.plan) || fail 'not all are drawn'
+grep -q 'fewer than the 100 asked for' <(sample 100 >/dev/null; cat said) || fail "nothing is said of few: $(<said)"
+is 'no ranks' "$(sample 1 --format json | grep -c rank)" 0
+sample 1 --format csv >/dev/null && fail 'there are ranks'
+grep -q 'error\[E0904\].*their ranks' said || fail "ranks: $(<said)"
+
+# The best, and whether that is proven.
+measured() {
+    sed 's/^library/measure pairs using s = occurrences(neighbour(tray(n1 or n2 or n3), tray(n4 or n5)))\n&/' "$1"
+}
+measured seven.plan >measured.plan
+for better in --most --least; do
+    "$TARTAN" best measured.plan 4 $better pairs | grep '#' | cut -d' ' -f2 >expected
+    "$TARTAN" best measured.plan 4 $better pairs --max-states 20 2>said | grep '#' | cut -d' ' -f2 | cmp - expected ||
+        fail "other values $better"
+    grep -q 'not proven' said && fail "the best are not proven: $(<said)"
+done
+langford 12 >twelve.plan
+measured twelve.plan >measured.plan
+"$TARTAN" best measured.plan 1 --most pairs --max-states 20 --max-conflicts 300 2>said >found
+grep -q 'it is not proven that these are the best within --max-conflicts: no plan has more than' said ||
+    fail "what is not proven is not said: $(<said)"
+is 'still a plan' "$(grep -c '|' found)" 1
+"$TARTAN" draw seven.plan --sample 3 --max-states 20 -o drawn.svg 2>said || fail "not drawn: $(<said)"
+grep -q '3 plans found by search' drawn.svg || fail 'the sheet does not say how its plans were found'
+
 # As a question, and in files.
 enumerate seven.plan --max-states 20 -o plans.sqlite --limit 10
 enumerate seven.plan --max-states 20 -o plans.sqlite --resume

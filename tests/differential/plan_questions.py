@@ -468,6 +468,26 @@ def searched(subject):
         return
     first = [line for i, line in enumerate(subject.lines) if i < SEARCHED]
     same("enumerate by search", subject.ask("enumerate", "--max-states", "1", "--limit", str(SEARCHED)).split("\n")[:-1], first)
+    drawn = subject.ask("sample", "20", "--uniform", "--max-states", "1").split("\n")[:-1]
+    same("sample by search, in the library", set(drawn) <= set(subject.lines), True)
+    same("sample by search, each once", len(set(drawn)), min(20, subject.total))
+    for measure in subject.measures()[:2]:
+        for better in ("--most", "--least"):
+            best_searched(subject, measure.name, better)
+
+
+def best_searched(subject, measure, better):
+    """The best plans have the same values, in whatever order those of one value come."""
+    values = []
+    for limit in ([], ["--max-states", "1"]):
+        try:
+            lines = subject.ask("best", "3", better, measure, "--format", "json", *limit).split("\n")[:-1]
+        except Refused as refused:
+            if refused.limit:                                    # quotients and gaps are not searched
+                return
+            raise
+        values.append([read_json("best", line)["value"] for line in lines])
+    same(f"best {better} by search", values[1], values[0])
 
 
 QUICK = [counted_ways, by_length]              # asked of every library; of those that follow some are chosen

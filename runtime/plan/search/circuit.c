@@ -297,6 +297,12 @@ void tn_circuit_assert(tn_circuit *circuit, tn_signal gate)
     free(operands);
 }
 
+void tn_circuit_prefer(tn_circuit *circuit, tn_signal gate)
+{
+    if (gate / 2 != 0 && circuit->status == TN_OK)
+        circuit->status = circuit->calls->prefer(circuit->solver, told(circuit, gate), &circuit->error);
+}
+
 static bool stops(void *watch)
 {
     return tn_watch_stopped(watch);

@@ -49,6 +49,9 @@ void tn_circuit_assert(tn_circuit *circuit, tn_signal gate);
 /* From now on, any of the gates is. */
 void tn_circuit_assert_any(tn_circuit *circuit, const tn_signal *gates, size_t count);
 
+/* Where the gate has to be guessed, it is guessed true. Of an input. */
+void tn_circuit_prefer(tn_circuit *circuit, tn_signal gate);
+
 /* Can all that is asserted be true, with all of the assumed gates? As tn_solver_calls.solve; TN_STOPPED if the watch
  * (or NULL) says so. */
 tn_status tn_circuit_solve(tn_circuit *circuit, const tn_signal *assumed, size_t count, uint64_t conflicts,

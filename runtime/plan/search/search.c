@@ -94,8 +94,13 @@ tn_status tn_search_solve(tn_plan_search *search, size_t count, bool *found, tn_
         *found = answer == TN_SOLVER_YES;
         return status;
     }
+    return tn_search_undecided(search, error);
+}
+
+tn_status tn_search_undecided(const tn_plan_search *search, tn_error *error)
+{
     tn_fail(error, TN_LIMIT, E_SEARCH_UNDECIDED,
-            "searching the plans of %u trays takes more than the limit of %llu conflicts", (unsigned)at->trays,
+            "searching the plans of %u trays takes more than the limit of %llu conflicts", (unsigned)search->at.trays,
             (unsigned long long)search->options.max_conflicts);
     tn_error_help(error, "give fewer trays with --trays, or raise the limit with --max-conflicts");
     return TN_LIMIT;
@@ -230,6 +235,12 @@ tn_status tn_plan_search_keeps(tn_plan_search *search, const tn_tray *trays, uin
 }
 
 /* ---- asked */
+
+void tn_plan_search_lengths(const tn_plan_search *search, uint32_t *least, uint32_t *most)
+{
+    *least = search->options.trays_min;
+    *most = search->options.trays_max;
+}
 
 tn_status tn_plan_search_new(const tn_schema *schema, uint32_t index, const tn_search_options *options,
                              tn_plan_search **out, tn_error *error)

@@ -14,6 +14,8 @@
 #ifndef TARTAN_PLAN_SEARCH_SEARCH_H
 #define TARTAN_PLAN_SEARCH_SEARCH_H
 
+#include <gmp.h>
+
 #include "runtime/plan/schema/schema.h"
 
 typedef struct tn_plan_search tn_plan_search;
@@ -40,6 +42,41 @@ void tn_plan_search_free(tn_plan_search *search);
 /* The plan of the next rank, from rank 0 on: *trays is valid until the next call, NULL: there is no other. TN_LIMIT
  * (E0809, E0833): it was not found within the limits, and neither is it known that there is none. */
 tn_status tn_plan_search_next(tn_plan_search *search, const tn_tray **trays, uint32_t *length, tn_error *error);
+
+/* How many trays its plans may have; least > most: there are none. */
+void tn_plan_search_lengths(const tn_plan_search *search, uint32_t *least, uint32_t *most);
+
+/* Plans that were found, which the owner frees. */
+typedef struct tn_searched_plan {
+    tn_tray *trays;
+    uint32_t length;
+    mpq_t value; /* of a best plan: in the measure's unit of nanometres to its power */
+} tn_searched_plan;
+
+typedef struct tn_searched_plans {
+    tn_searched_plan *items;
+    size_t count, capacity;
+} tn_searched_plans;
+
+void tn_searched_plans_clear(tn_searched_plans *plans);
+
+/* Adds so many different plans of `min` to `max` trays, or all that there are, in the order of their ranks, after those
+ * that are there. Values are guessed at random as the solver goes, by seed alone: not each plan is as likely as each.
+ * The search is used up. */
+tn_status tn_plan_search_sample(tn_plan_search *search, uint64_t seed, uint32_t min, uint32_t max, size_t count,
+                                tn_searched_plans *plans, tn_error *error);
+
+/* Whether it is proven that no other plan is better. */
+typedef struct tn_search_proof {
+    bool proven;
+    mpq_t bound; /* if not: no plan of the library has more (or less, if the least is the best); of the owner,
+                    initialised */
+} tn_search_proof;
+
+/* Adds the `count` plans, or all that there are, that have most (or least) of a SUM record's value, the best first. The
+ * sum must not be about gaps. plans: empty. The search is used up. */
+tn_status tn_plan_search_best(tn_plan_search *search, uint32_t sum, bool most, size_t count, tn_searched_plans *plans,
+                              tn_search_proof *proof, tn_error *error);
 
 /* Do all clauses that apply keep the plan? By the interpreter. */
 tn_status tn_plan_search_keeps(tn_plan_search *search, const tn_tray *trays, uint32_t length, bool *keeps,

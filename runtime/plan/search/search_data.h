@@ -41,8 +41,14 @@ void tn_search_close(tn_plan_search *search);
 /* Is there a plan, with the first `count` of at.assumed? TN_LIMIT (E0833) if that is not found out. */
 tn_status tn_search_solve(tn_plan_search *search, size_t count, bool *found, tn_error *error);
 
+/* TN_LIMIT (E0833), of the length that is open. */
+tn_status tn_search_undecided(const tn_plan_search *search, tn_error *error);
+
 /* No other plan is like this one, from now on. */
 void tn_search_exclude(tn_plan_search *search, const tn_tray *trays);
+
+/* Keeps a copy of a plan. */
+tn_status tn_searched_add(tn_searched_plans *plans, const tn_tray *trays, uint32_t length, tn_error *error);
 
 /* Does the interpreter keep the plan? TN_INTERNAL if it does not, and every clause has its gate. */
 tn_status tn_search_judge(tn_plan_search *search, const tn_tray *trays, bool *keeps, tn_error *error);

@@ -304,7 +304,8 @@ static bool append_json(tn_plan_writer *writer, const char *rank, const tn_plan_
 {
     tn_json json = tn_json_text(&writer->text, TN_JSON_TIGHT);
     tn_json_object(&json, NULL);
-    tn_json_string(&json, "rank", rank);
+    if (rank)
+        tn_json_string(&json, "rank", rank);
     for (size_t i = 0; i < tn_writer_texts(writer); i++)
         tn_json_string(&json, writer->rows->names[i], row->texts[i]);
     tn_plan_write_trays(writer->schema, row->trays, row->length, &json);
@@ -350,8 +351,8 @@ static tn_status write_ranked(tn_plan_writer *writer, const char *rank, const tn
 tn_status tn_plan_writer_write_row(tn_plan_writer *writer, const mpz_t rank, const tn_plan_row *row, tn_error *error)
 {
     char room[128];
-    if (writer->format == TN_FORMAT_LINES || writer->format == TN_FORMAT_BIN)
-        return write_ranked(writer, NULL, row, error); /* they say no ranks */
+    if (writer->format == TN_FORMAT_LINES || writer->format == TN_FORMAT_BIN || !rank)
+        return write_ranked(writer, NULL, row, error); /* they say no ranks, or there is none */
     if (writer->format == TN_FORMAT_PARQUET)
         return writer->parquet->write(writer, rank, row->trays, row->length, error);
     if (mpz_sizeinbase(rank, 10) + 2 <= sizeof room)
