@@ -10,6 +10,7 @@
 #include "runtime/module/code.h"
 #include "runtime/plan/measure/never.h"
 #include "runtime/plan/schema/sum.h"
+#include "runtime/plan/search/search.h"
 #include "runtime/plan/text/text.h"
 
 /* One finding being reported. */
@@ -307,10 +308,59 @@ static bool name_subjects(const teller *t, char *names, size_t size)
     return true;
 }
 
+/* What the search for a plan of a library that is not analysed may take, so that checking stays quick. */
+enum { SEARCHED_CONFLICTS = 10000, SEARCHED_GATES = 1 << 18 };
+
+static tn_status tell_conflict(const teller *t, const tn_search_conflict *conflict)
+{
+    const tn_library_record *record = &t->module->LIBRARY_records[t->finding->library];
+    tn_plan_analysis_finding found = {.found = TN_FOUND_EMPTY,
+                                      .rule = TN_NO_RECORD,
+                                      .library = t->finding->library,
+                                      .reason_count = conflict->count,
+                                      .with_lengths = true};
+    found.reasons = malloc((conflict->count + 1) * sizeof *found.reasons);
+    found.plans = malloc((conflict->count + 1) * sizeof *found.plans);
+    tn_status status = found.reasons && found.plans ? TN_OK : tn_fail_memory(NULL);
+    for (size_t i = 0; status == TN_OK && i < conflict->count; i++) {
+        const tn_searched_plan *plan = &conflict->plans.items[i];
+        found.reasons[i] = record->clause_first + conflict->clauses[i];
+        found.plans[i] = (tn_shown_plan){.trays = plan->trays, .length = plan->length, .shown = true};
+    }
+    teller other = *t;
+    other.finding = &found;
+    if (status == TN_OK)
+        status = tell_empty(&other);
+    free(found.reasons);
+    free(found.plans);
+    return status;
+}
+
+/* A library whose automaton passes a limit: if it is proven to be empty by search, that is told. */
+static tn_status tell_searched(const teller *t)
+{
+    const tn_search_options options = {.max_gates = SEARCHED_GATES, .max_conflicts = SEARCHED_CONFLICTS};
+    tn_search_conflict conflict = {0};
+    tn_plan_search *search;
+    tn_status status = tn_plan_search_new(t->schema, t->finding->library, &options, &search, NULL);
+    if (status == TN_OK) {
+        status = tn_plan_search_conflict(search, &conflict, NULL);
+        tn_plan_search_free(search);
+    }
+    if (status == TN_OK && conflict.empty)
+        status = tell_conflict(t, &conflict);
+    tn_search_conflict_clear(&conflict);
+    return status == TN_LIMIT ? TN_OK : status;
+}
+
 static tn_status tell_not_analysed(const teller *t)
 {
     const tn_plan_analysis_finding *f = t->finding;
     char names[512];
+    bool library = f->rule == TN_NO_RECORD && f->why->code == E_TOO_MANY_STATES;
+    tn_status status = library && tn_plan_search_is_there() ? tell_searched(t) : TN_OK;
+    if (status != TN_OK)
+        return status;
     if (!name_subjects(t, names, sizeof names))
         return TN_OK;
     tn_diagnostic *d = tn_report_bare(list_of(t), TN_NOTE, TN_CODE_NONE, "%s not analysed: %s", names, f->why->message);

@@ -473,7 +473,7 @@ def searched(subject):
     same("sample by search, each once", len(set(drawn)), min(20, subject.total))
     for measure in subject.measures()[:2]:
         for better in ("--most", "--least"):
-            best_searched(subject, measure.name, better)
+            best_searched(subject, measure, better)
 
 
 def best_searched(subject, measure, better):

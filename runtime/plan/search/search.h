@@ -78,6 +78,20 @@ typedef struct tn_search_proof {
 tn_status tn_plan_search_best(tn_plan_search *search, uint32_t sum, bool most, size_t count, tn_searched_plans *plans,
                               tn_search_proof *proof, tn_error *error);
 
+/* Why a library has no plan. */
+typedef struct tn_search_conflict {
+    bool empty;        /* it has none */
+    uint32_t *clauses; /* [count], of the library's, ascending: together they leave no plan of its lengths, and none can
+                          be left out */
+    size_t count;
+    tn_searched_plans plans; /* [count]: which all of them but one keep */
+} tn_search_conflict;
+
+/* Clear it in any case. TN_LIMIT (E0833): it is not known whether the library is empty, or why. The search is used up.
+ */
+tn_status tn_plan_search_conflict(tn_plan_search *search, tn_search_conflict *conflict, tn_error *error);
+void tn_search_conflict_clear(tn_search_conflict *conflict);
+
 /* Do all clauses that apply keep the plan? By the interpreter. */
 tn_status tn_plan_search_keeps(tn_plan_search *search, const tn_tray *trays, uint32_t length, bool *keeps,
                                tn_error *error);

@@ -14,12 +14,20 @@
 
 /* Counts, sums, circles, distances: two of the three trays in the middle are 6' wide. */
 static const char text[] = "schema s { width = 3' | 6'  use = hall | room | stair }\n"
+                           "measure narrow-hall using s = quantity(tray(hall, 3'))\n"
                            "rule bay = tray(hall) or neighbour(tray(room), bay, tray(room))\n"
                            "library rows using s {\n"
                            "  trays 5\n"
                            "  generate bay\n"
                            "  require sum(width) = 21' and quantity(tray(6')) >= 2\n"
                            "  prune distance(from tray(6'), to tray(hall), by quantity(any, n = 1))\n"
+                           "}\n"
+                           "library none using s {\n"
+                           "  trays 1..3\n"
+                           "  require quantity(tray(stair)) = 1\n"
+                           "  require quantity(tray(hall)) >= 2\n"
+                           "  prune neighbour(tray(3'), tray(3'))\n"
+                           "  require quantity(tray(room)) >= 1\n"
                            "}\n";
 
 static tn_module *module;
@@ -52,10 +60,61 @@ static tn_status all_plans(void)
     return status;
 }
 
+/* Draws more plans than there are, and the best. */
+static tn_status drawn_and_best(void)
+{
+    tn_searched_plans plans = {0};
+    tn_search_proof proof;
+    tn_plan_search *search;
+    tn_error error;
+    tn_status status = tn_plan_search_new(schema, 0, NULL, &search, &error);
+    if (status != TN_OK)
+        return status;
+    mpq_init(proof.bound);
+    status = tn_plan_search_sample(search, 7, 0, UINT32_MAX, 9, &plans, &error);
+    assert_true(status != TN_OK || plans.count == 3);
+    tn_searched_plans_clear(&plans);
+    if (status == TN_OK)
+        status = tn_plan_search_best(search, module->MEASURE_records[0].sum, true, 2, &plans, &proof, &error);
+    if (status == TN_OK) {
+        assert_true(proof.proven);
+        assert_int_equal(plans.count, 2);
+        assert_int_equal(mpq_cmp_ui(plans.items[0].value, 1, 1), 0); /* both rooms beside the hall are wide */
+    }
+    tn_searched_plans_clear(&plans);
+    mpq_clear(proof.bound);
+    tn_plan_search_free(search);
+    return status;
+}
+
+/* Three trays cannot have a stair, two halls and a room; that no two narrow ones stand side by side has no part in it.
+ */
+static tn_status conflict(void)
+{
+    tn_search_conflict found = {0};
+    tn_plan_search *search;
+    tn_status status = tn_plan_search_new(schema, 1, NULL, &search, NULL);
+    if (status != TN_OK)
+        return status;
+    status = tn_plan_search_conflict(search, &found, NULL);
+    if (status == TN_OK) {
+        const uint32_t expected[] = {0, 1, 3};
+        assert_true(found.empty);
+        assert_int_equal(found.count, 3);
+        assert_memory_equal(found.clauses, expected, sizeof expected);
+        assert_int_equal(found.plans.count, 3);
+    }
+    tn_search_conflict_clear(&found);
+    tn_plan_search_free(search);
+    return status;
+}
+
 static void test_memory(void **state)
 {
     (void)state;
     fail_each(all_plans, false);
+    fail_each(drawn_and_best, false);
+    fail_each(conflict, false);
 }
 
 /* Brute force: all plans of five trays, judged by the interpreter. */

@@ -1,0 +1,1 @@
+count too-many-states.plan
