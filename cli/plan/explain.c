@@ -128,6 +128,10 @@ static void explain_cells_text(const tn_explained_cells *explained, tn_buffer *o
                          "`tartan count` with --library %s --plan PLAN --clauses says how many houses it has, and what "
                          "each clause keeps out\n",
                          explained->library);
+    if (explained->houseless)
+        tn_buffer_printf(out,
+                         "`tartan explain` with a house on this plan, PLAN ; SECTION ; FUNCTIONS ; FACES, names the "
+                         "cells that are at fault and what does not fit there\n");
     for (size_t i = 0; i < explained->bare.count; i++)
         write_bare(&explained->bare.items[i], false, out);
 }

@@ -42,4 +42,5 @@ golden explained "tartan explain $scratch/middle.plan '$house' --library all"
 # Plans: a cell in which nobody could go about, whatever is in its walls; no place for a flight, though each cell could be in a house.
 golden plan_cut "tartan explain cut-off.plan '3m space:4m | 0.9m space:4m' --library cabins"
 golden plan_no_place "tartan explain no-place.plan '2.4m space:4.2m | 3.6m space:4.2m' --library cabins"
+golden plan_no_place_house "tartan explain no-place.plan '2.4m space:4.2m | 3.6m space:4.2m ; - ; hall landing | living bedroom ; window window door window window window window window window window window window' --library cabins"
 finish
