@@ -1,5 +1,7 @@
-# Makes of the installed files what Debian wants to have, before cpack packs them: a copyright file, compressed manual pages and changes, archives
-# without debugging symbols, and zsh's completion where Debian's zsh looks. A folder for each package, called by its component.
+# Makes of the installed files what Debian wants to have, before cpack packs them: a copyright file, compressed manual pages and changes, a
+# changelog of its own form, which names those, archives without debugging symbols, and zsh's completion where Debian's zsh looks. A folder for
+# each package, called by its component.
+string(TIMESTAMP now "%a, %d %b %Y %H:%M:%S +0000" UTC) # SOURCE_DATE_EPOCH, if that is given
 set(cadical /usr/share/doc/libcadical-dev/copyright)
 function(finish root name)
   set(share ${root}/usr/share)
@@ -11,9 +13,14 @@ function(finish root name)
     file(APPEND ${doc}/copyright "\nIt holds CaDiCaL:\n\n${notice}")
   endif()
   file(REMOVE ${doc}/LICENSE)
-  file(RENAME ${doc}/CHANGELOG.md ${doc}/changelog)
+  file(WRITE ${doc}/changelog "tartan (${CPACK_PACKAGE_VERSION}) unstable; urgency=medium
+
+  * What changed is told in CHANGELOG.md.gz, beside this file.
+
+ -- ${CPACK_PACKAGE_CONTACT}  ${now}
+")
   file(GLOB pages ${share}/man/man*/*.[1-9])
-  execute_process(COMMAND gzip -9 -n ${pages} ${doc}/changelog COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND gzip -9 -n ${pages} ${doc}/changelog ${doc}/CHANGELOG.md COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
 set(root ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/tartan)

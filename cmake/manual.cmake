@@ -11,14 +11,19 @@ set(TARTAN_PRINTING "")
 macro(tartan_writes name folder)
   list(APPEND TARTAN_PRINTED ${TARTAN_WRITTEN}/${name})
   list(APPEND TARTAN_PRINTING COMMAND tartan help ${ARGN} > ${TARTAN_WRITTEN}/${name})
-  install(FILES ${TARTAN_WRITTEN}/${name} DESTINATION ${folder})
+  install(FILES ${TARTAN_WRITTEN}/${name} DESTINATION ${folder} COMPONENT ${TARTAN_COMPONENT})
 endmacro()
 
+set(TARTAN_COMPONENT tartan)
 tartan_writes(tartan.1 ${CMAKE_INSTALL_MANDIR}/man1 --man)
 file(STRINGS cli/commands.def rows REGEX "^COMMAND")
 foreach(row ${rows})
   string(REGEX REPLACE "COMMAND\\((.*)\\).*" "\\1" command ${row})
   string(REPLACE "_" "-" command ${command})
+  set(TARTAN_COMPONENT tartan)
+  if(command STREQUAL "studio" AND TARTAN_WITH_STUDIO)
+    set(TARTAN_COMPONENT studio) # the page of the server, too, which takes the same options
+  endif()
   tartan_writes(tartan-${command}.1 ${CMAKE_INSTALL_MANDIR}/man1 --man ${command})
 endforeach()
 
@@ -27,7 +32,7 @@ function(tartan_page name page summary)
   set(file ${TARTAN_WRITTEN}/tartan-${name}.5)
   set(source ${PROJECT_SOURCE_DIR}/docs/${page})
   add_custom_command(OUTPUT ${file} DEPENDS ${source} ${PROJECT_SOURCE_DIR}/tools/manual-page compiler/notations.def
-    COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tools/manual-page ${source} ${name} ${summary} ${PROJECT_VERSION} > ${file} VERBATIM)
+    COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tools/manual-page ${source} ${name} ${summary} ${PROJECT_VERSION} ${TARTAN_DATE} > ${file} VERBATIM)
   install(FILES ${file} DESTINATION ${CMAKE_INSTALL_MANDIR}/man5)
   set(TARTAN_WRITTEN_FILES ${TARTAN_WRITTEN_FILES} ${file} PARENT_SCOPE)
 endfunction()
@@ -41,6 +46,8 @@ foreach(row ${rows})
 endforeach()
 tartan_page(house house-language.md "forms of houses, and rules and measures about houses")
 tartan_page(plans plan-files.md "the formats of files of plans")
+
+set(TARTAN_COMPONENT tartan)
 
 # Each shell looks in a folder of its own, and under a name of its own.
 tartan_writes(bash/tartan ${CMAKE_INSTALL_DATADIR}/bash-completion/completions --completion bash)

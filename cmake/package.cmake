@@ -10,6 +10,8 @@ set(CPACK_PACKAGE_NAME tartan)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_ALL tartan)
 set(CPACK_DEBIAN_TARTAN_PACKAGE_NAME tartan)
+# Debian's synopsis begins without an article, and lines of a description have 80 characters.
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Rule-authoring language toolchain for rule-based design")
 set(CPACK_PACKAGE_CONTACT "${TARTAN_MAINTAINER}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
@@ -21,6 +23,8 @@ set(CPACK_COMPONENT_TARTAN_DESCRIPTION "Rules that say what makes a plan good ar
 and turned into every plan that they allow: counted exactly, ranked, sampled,
 listed and drawn. With the libraries and headers to do so in C.")
 # What the binary and the libraries need, by the libraries that they are linked to; and ldconfig once they are there.
+file(WRITE ${PROJECT_BINARY_DIR}/debian/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_TARTAN_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian/triggers)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 # Programs that are linked to the archives, or by pkg-config --static, need more.
@@ -31,8 +35,9 @@ if(TARGET tartan-mpi)
   set(CPACK_DEBIAN_MPI_PACKAGE_NAME tartan-mpi)
   set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "tartan (= ${PROJECT_VERSION})")
   set(CPACK_DEBIAN_MPI_PACKAGE_GENERATE_SHLIBS OFF)
-  set(CPACK_COMPONENT_MPI_DESCRIPTION "tartan-mpi does commands of Tartan by MPI: it writes the shards of a plan library and breeds runs of evolution by many
-processes, on one machine or on many, with the same bytes as tartan alone.")
+  set(CPACK_COMPONENT_MPI_DESCRIPTION "tartan-mpi does commands of Tartan by MPI: it writes the shards of a plan
+library and breeds runs of evolution by many processes, on one machine or on
+many, with the same bytes as tartan alone.")
 endif()
 # tartan-studio, where it was built (studio/): the command `tartan studio` runs it, with libwebsockets, which nothing else needs.
 if(TARGET tartan-studio)
@@ -41,8 +46,9 @@ if(TARGET tartan-studio)
   set(CPACK_DEBIAN_STUDIO_PACKAGE_DEPENDS "tartan (= ${PROJECT_VERSION})")
   set(CPACK_DEBIAN_STUDIO_PACKAGE_RECOMMENDS "xdg-utils")
   set(CPACK_DEBIAN_STUDIO_PACKAGE_GENERATE_SHLIBS OFF)
-  set(CPACK_COMPONENT_STUDIO_DESCRIPTION "The server of `tartan studio`: a page in the browser on which rules are written and what they keep is
-seen at once. It serves one folder, to this machine alone.")
+  set(CPACK_COMPONENT_STUDIO_DESCRIPTION "The server of `tartan studio`: a page in the browser on which rules are
+written and what they keep is seen at once. It serves one folder, to this
+machine alone.")
 endif()
 # python3-tartan, where it was built (python/): for the system's Python and later ones, by the libraries of tartan.
 if(TARGET python-tartan)
@@ -54,8 +60,9 @@ if(TARGET python-tartan)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "tartan (= ${PROJECT_VERSION}), python3 (>= 3.9), python3-cffi-backend, libc6")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-numpy, python3-pandas")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_GENERATE_SHLIBS OFF)
-  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The Python package tartan: rule files compiled, libraries of plans and houses counted, ranked, sampled and
-measured, surfaces grown and meshed, in scripts and notebooks.")
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The Python package tartan: rule files compiled, libraries of plans and
+houses counted, ranked, sampled and measured, surfaces grown and meshed, in
+scripts and notebooks.")
 endif()
 set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/debian.cmake)
 include(CPack)

@@ -29,21 +29,25 @@ static void write_all(const char *text, FILE *out)
     write_text(text, strlen(text), out);
 }
 
-/* Each line of `text` with a macro or words before it. */
-static void write_manual_lines(const char *before, const char *text, const char *after, FILE *out)
+/* Each line of `text` that is not empty with a macro or words before it, and what stands between two of them. */
+static void write_manual_lines(const char *before, const char *text, const char *between, FILE *out)
 {
-    do {
+    for (bool first = true; *text;) {
         size_t size = strcspn(text, "\n");
-        fputs(before, out);
-        write_text(text, size, out);
-        fputs(after, out);
+        if (size) {
+            fputs(first ? "" : between, out);
+            fputs(before, out);
+            write_text(text, size, out);
+            fputc('\n', out);
+            first = false;
+        }
         text += size + (text[size] == '\n');
-    } while (*text);
+    }
 }
 
 static void write_head(const char *page, const char *name, const char *summary, FILE *out)
 {
-    fprintf(out, ".TH %s 1 \"\" \"tartan " TARTAN_VERSION "\"\n.SH NAME\n", page);
+    fprintf(out, ".TH %s 1 \"" TARTAN_DATE "\" \"tartan " TARTAN_VERSION "\"\n.SH NAME\n", page);
     write_all(name, out);
     fputs(" \\- ", out);
     write_all(summary, out);
@@ -105,9 +109,9 @@ void tn_manual_command(const tn_command *command, FILE *out)
     snprintf(page, sizeof page, "tartan-%s", command->name);
     write_head(page, page, command->summary, out);
     snprintf(before, sizeof before, ".B tartan %s\n", command->name);
-    write_manual_lines(before, command->usage, "\n.br\n", out);
+    write_manual_lines(before, command->usage, ".br\n", out);
     fputs(".SH DESCRIPTION\n", out);
-    write_manual_lines("", command->description, "\n.PP\n", out);
+    write_manual_lines("", command->description, ".PP\n", out);
     fputs(".SH OPTIONS\n", out);
     for (size_t i = 0; i < command->option_count; i++)
         write_manual_option(&command->options[i], out);

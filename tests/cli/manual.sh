@@ -22,6 +22,16 @@ for command in $commands; do
         fail "tartan-$command(1) has text that roff would take for a macro"
     fi
 done
+# Where mandoc is, which other systems read pages with, it has no warning.
+lint() {
+    command -v mandoc >/dev/null || return 0
+    local warnings
+    warnings=$(mandoc -T lint -W warning 2>&1 <<<"$2") || fail "$1: $warnings"
+}
+lint 'tartan(1)' "$overview"
+for command in $commands; do
+    lint "tartan-$command(1)" "$("$TARTAN" help --man "$command")"
+done
 if "$TARTAN" help --man nonsense 2>/dev/null; then
     fail 'a page for a command that there is not'
 fi
@@ -36,7 +46,7 @@ for name in plan bnf study house plans $(find stdlib -type f | sed 's/.*\.//' | 
     grep -qx "$name" <<<"$names" || fail "no notation $name"
 done
 while IFS='|' read -r name source summary; do
-    page=$(tools/manual-page "docs/$source" "$name" "$summary" "$version")
+    page=$(tools/manual-page "docs/$source" "$name" "$summary" "$version" 2026-11-30)
     for text in '.SH NAME' '.SH DESCRIPTION' '.SH SEE ALSO'; do
         grep -qxF "$text" <<<"$page" || fail "tartan-$name(5) has no line $text"
     done
@@ -45,6 +55,7 @@ while IFS='|' read -r name source summary; do
         title=${title//-/\\-}
         [[ $page == *".SH ${title//\'/\\(aq}"* ]] || fail "tartan-$name(5) lacks the section $title"
     done < <(sed -n '/^```/,/^```/d;s/^## \([^`(]*\).*/\1/p' "docs/$source")
+    lint "tartan-$name(5)" "$page"
     if grep -qF '](' <<<"$page"; then
         fail "tartan-$name(5) has a link left"
     fi
