@@ -211,6 +211,21 @@ static tn_status judge_clause(tn_plan_search *search, uint32_t i, bool *keeps, t
     return status;
 }
 
+#define REJECTED_MAX (1u << 18) /* plans in a row */
+
+static tn_status count_rejected(tn_plan_search *search, bool keeps, tn_error *error)
+{
+    search->rejected = keeps ? 0 : search->rejected + 1;
+    if (search->rejected < REJECTED_MAX)
+        return TN_OK;
+    tn_fail(
+        error, TN_LIMIT, E_SEARCH_UNDECIDED,
+        "%u plans of %u trays were found one after another that clauses which are too large to search by do not keep",
+        search->rejected, (unsigned)search->at.trays);
+    tn_error_help(error, "give fewer trays with --trays, or raise the limit with --max-gates");
+    return TN_LIMIT;
+}
+
 tn_status tn_search_judge(tn_plan_search *search, const tn_tray *trays, bool *keeps, tn_error *error)
 {
     tn_status status = tn_plan_vm_plan(search->vm, trays, search->at.trays, error);
@@ -221,7 +236,7 @@ tn_status tn_search_judge(tn_plan_search *search, const tn_tray *trays, bool *ke
             return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a plan was found that the clause `%.80s` does not keep",
                            tn_text(search->schema->module, tn_search_clause(search, i)->name));
     }
-    return status;
+    return status == TN_OK ? count_rejected(search, *keeps, error) : status;
 }
 
 tn_status tn_plan_search_keeps(tn_plan_search *search, const tn_tray *trays, uint32_t length, bool *keeps,

@@ -27,6 +27,7 @@ struct tn_plan_search {
     uint32_t next_trays; /* the length to look at next */
     tn_tray *plan;       /* [trays_max + 1]: the last one, if there is one of this length */
     bool has_plan;
+    uint32_t rejected; /* plans by the interpreter, since the last one that was kept */
 };
 
 static inline const tn_clause_record *tn_search_clause(const tn_plan_search *search, uint32_t i)
@@ -50,7 +51,8 @@ void tn_search_exclude(tn_plan_search *search, const tn_tray *trays);
 /* Keeps a copy of a plan. */
 tn_status tn_searched_add(tn_searched_plans *plans, const tn_tray *trays, uint32_t length, tn_error *error);
 
-/* Does the interpreter keep the plan? TN_INTERNAL if it does not, and every clause has its gate. */
+/* Does the interpreter keep the plan? TN_INTERNAL if it does not, and every clause has its gate; TN_LIMIT (E0833) if
+ * that was so of too many in a row. */
 tn_status tn_search_judge(tn_plan_search *search, const tn_tray *trays, bool *keeps, tn_error *error);
 
 #endif

@@ -360,6 +360,11 @@ tn_status tn_unrolled_new(const tn_letters *letters, tn_unrolled **out, tn_error
     u->row = tn_array_new((uint64_t)u->length + 1, sizeof *u->row);
     if (u->row)
         find_rows(u);
+    if (u->cells > CELLS_MAX) {
+        tn_status status = too_large(u, error);
+        tn_unrolled_free(u);
+        return status;
+    }
     u->memos = calloc(4 * u->module->FUNCTION_count + 1, sizeof *u->memos);
     u->truths = tn_array_new((uint64_t)u->length + 1, sizeof *u->truths);
     u->gates = u->row ? tn_array_new((uint64_t)u->cells + 2 * (uint64_t)u->length + 4, sizeof *u->gates) : NULL;
