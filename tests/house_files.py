@@ -363,34 +363,57 @@ def leaves_of(made, door, opening):
         yield tuple(foot), tuple(c + abs(shut - hinge) * d for c, d in zip(foot, y)), tuple(c + (shut - hinge) * d for c, d in zip(foot, x))
 
 
-def drawn_leaves(drawing):
-    """The same of a plan, whose front is below: a quarter of a circle about the hinge, and a line from there to one of its ends."""
-    lines = [((-F(e["10"]), -F(e["20"])), (-F(e["11"]), -F(e["21"]))) for e in drawing if (e["0"], e["8"]) == ("LINE", "DOORS")]
-    quarter = {180: (1, 0), 270: (0, 1), 0: (-1, 0), 90: (0, -1)}
-    for arc in (e for e in drawing if (e["0"], e["8"]) == ("ARC", "DOORS")):
-        hinge = -F(arc["10"]), -F(arc["20"])
-        ends = [tuple(c + F(arc["40"]) * d for c, d in zip(hinge, quarter[int(float(arc[code]))])) for code in ("50", "51")]
-        drawn = [i for i in (0, 1) if any(near(a, hinge) and near(b, ends[i]) for a, b in lines)]
-        check("a leaf is drawn open", len(drawn) == 1)
-        yield hinge, ends[drawn[0] if drawn else 0], ends[1 - (drawn[0] if drawn else 0)]
+def blocks_of(groups):
+    """The widths of doors, by the names of their blocks: a line from the hinge, and a quarter of a circle about it."""
+    widths, block, kind = {}, None, None
+    for code, value in groups:
+        kind = value if code == "0" else kind
+        if kind == "BLOCK" and code == "2":
+            block = value
+        elif kind == "LINE" and code == "21" and block and block.startswith("DOOR-"):
+            widths[block] = F(value)
+        elif kind == "ENDBLK":
+            block = None
+    return widths
+
+
+def drawn_leaves(groups, drawing):
+    """The same of a plan, whose front is below: a symbol at the hinge, open upwards and shut to its right before it is mirrored and turned."""
+    quarter, widths = [(1, 0), (0, 1), (-1, 0), (0, -1)], blocks_of(groups)
+    for door in (e for e in drawing if e["0"] == "INSERT" and e["2"].startswith("DOOR-")):
+        turn, wide = int(float(door["50"])) // 90, widths[door["2"]] * scale_of(groups)
+        along, up = quarter[turn], quarter[(turn + 1) % 4]
+        hinge = tuple(-c for c in door["points"][0])
+        tips = [tuple(c - wide * d for c, d in zip(hinge, way)) for way in (up, tuple(F(door["41"]) * d for d in along))]
+        yield hinge, tips[0], tips[1]
 
 
 def near(a, b):
     return all(abs(c - d) < F(1, 1000) for c, d in zip(a, b))                     # a micrometre
 
 
+def scale_of(groups):
+    """Millimetres a unit."""
+    at = groups.index(("9", "$INSUNITS"))
+    return {"1": F(254, 10), "4": F(1)}[groups[at + 1][1].strip()]
+
+
 def drawings_of(groups):
-    """The drawings in a DXF file, by their titles: each is a list of entities, group by group."""
+    """The drawings in model space of a DXF file, by their titles: each is a list of entities, group by group, with their points in millimetres."""
     begin = next(i for i, group in enumerate(groups) if group == ("2", "ENTITIES"))
-    found, drawing = {}, []
+    found, drawing, scale = {}, [], scale_of(groups)
     for code, value in groups[begin + 1:]:
-        if code == "0" and drawing and drawing[-1]["8"] == "TITLES":
+        if code == "0" and drawing and drawing[-1]["8"] == "A-ANNO-TTLB":
             found[unescaped(drawing[-1]["1"])] = drawing
             drawing = []
-        if code == "0" and value == "ENDSEC":
+        if code == "67" or (code == "0" and value == "ENDSEC"):               # what follows is on the sheet
             break
         if code == "0":
-            drawing.append({"8": None})
+            drawing.append({"8": None, "points": []})
+        if code in ("10", "11"):
+            drawing[-1]["points"].append((F(value) * scale,))
+        elif code in ("20", "21"):
+            drawing[-1]["points"][-1] += (F(value) * scale,)
         drawing[-1][code] = value
     return found
 
@@ -408,10 +431,9 @@ def check_doors(made, house, groups):
         check(f"a plan of {args[2]}", plan)
         if not inside or not plan:
             continue
-        cut = [e for e in plan if (e["0"], e["8"]) == ("LINE", "WALLS-CUT")]
-        corner = [min(-F(e[code]) for e in cut for code in codes) for codes in (("10", "11"), ("20", "21"))]
+        corner = [min(-point[k] for e in plan if e["8"] == "A-WALL" for point in e["points"]) for k in (0, 1)]
         moved = [min(box_of(made, n)[0][k] for n in inside) - corner[k] for k in range(2)]
-        drawn = [tuple(tuple(c + m for c, m in zip(point, moved)) for point in leaf) for leaf in drawn_leaves(plan)]
+        drawn = [tuple(tuple(c + m for c, m in zip(point, moved)) for point in leaf) for leaf in drawn_leaves(groups, plan)]
         doors = [n for n in contained if contained[n] == storey and made[n][0] == "IFCDOOR"]
         hung = [leaf for n in doors for leaf in leaves_of(made, n, filled[n])]
         check(f"{len(hung)} leaves in {args[2]}, and {len(drawn)} drawn", len(hung) == len(drawn))
@@ -424,28 +446,27 @@ def check_doors(made, house, groups):
 
 
 def unescaped(text):
-    """What a DXF text of a release before 2007 says."""
-    check(f"{text} is ASCII, with numbers for other letters", re.fullmatch(r"([ -\[\]_-~]|\^ |\\U\+[0-9A-F]{4})*", text))
-    units = re.sub(r"\\U\+([0-9A-F]{4})", lambda found: chr(int(found.group(1), 16)), text.replace("^ ", "^"))
-    return units.encode("utf-16-le", "surrogatepass").decode("utf-16-le")
+    """What a DXF text says."""
+    check(f"{text} has numbers for backslashes, and blanks after carets", re.fullmatch(r"([^\\^]|\^ |\\U\+005C)*", text))
+    return text.replace("\\U+005C", "\\").replace("^ ", "^")
 
 
 def read_dxf(path):
-    lines = open(path, encoding="ascii").read().split("\n")
+    lines = open(path, encoding="utf-8").read().split("\n")
     return list(zip(lines[0:-1:2], lines[1::2]))
 
 
 def check_whole(title, drawing):
     """No two lines of a layer lie in one line and touch: an edge is one line. (Not those of doors and stairs, which meet in their symbols.)"""
     by_line = {}
-    for e in (e for e in drawing if e["0"] == "LINE" and e["8"] not in ("DOORS", "STAIRS", "HATCH")):
-        (a, b), (c, d) = (float(e["10"]), float(e["20"])), (float(e["11"]), float(e["21"]))
+    for e in (e for e in drawing if e["0"] == "LINE" and e["8"] not in ("A-DOOR", "A-FLOR-STRS", "A-WALL-PATT")):
+        (a, b), (c, d) = (tuple(map(float, point)) for point in e["points"])
         for along, across, low, high in ((0, b, a, c), (1, a, b, d)):
             if abs((d - b) if along == 0 else (c - a)) < 1e-6:
                 by_line.setdefault((e["8"], along, round(across, 3)), []).append((min(low, high), max(low, high)))
     for key, pieces in by_line.items():
         pieces.sort()
-        touching = [(p, q) for p, q in zip(pieces, pieces[1:]) if q[0] <= p[1] + 1e-3]
+        touching = [(p, q) for p, q in zip(pieces, pieces[1:]) if q[0] < p[1] + 9e-4]
         check(f"{title}: {key} is one line, not {touching[:1]}", not touching)
 
 
@@ -461,7 +482,7 @@ def check_dxf(path, groups, house):
         elif code == "8":
             used[value] += 1
     check(f"layers {set(used) - known}", set(used) <= known)
-    said = {unescaped(e["1"]) for drawing in drawings_of(groups).values() for e in drawing if e.get("8") == "NAMES"}
+    said = {unescaped(e["1"]) for drawing in drawings_of(groups).values() for e in drawing if e.get("8") == "A-AREA-IDEN"}
     names = {text for text in said if not re.fullmatch(r"[\d.]+( (sf|m\u00b2))?", text)}
     net = [float(F(r["net"]) / F(10) ** 18) for r in house["rooms"]]
     written = {f"{area:.1f} m\u00b2" for area in net} | {f"{area / 0.3048 ** 2:.0f} sf" for area in net}
@@ -471,19 +492,17 @@ def check_dxf(path, groups, house):
         check_whole(title, drawing)
     rooms = {re.sub("[-_]", " ", r["function"]) for r in house["rooms"]}
     check(f"names {names} are of the rooms {rooms}", names and all(any(room.startswith(name) for room in rooms) for name in names))
-    for layer in ("WALLS", "FLOORS", "WALLS-CUT", "FLOORS-CUT", "HATCH", "DIMENSIONS", "NAMES", "TITLES"):
+    for layer in ("A-WALL", "A-WALL-BYND", "A-FLOR", "A-FLOR-SECT", "A-WALL-PATT", "A-ANNO-DIMS", "A-AREA-IDEN", "A-ANNO-TTLB"):
         check(f"something is on {layer}", used[layer])
     try:
         import ezdxf
-        from ezdxf import recover
     except ImportError:
         return
-    auditor = ezdxf.readfile(path).audit()
+    document = ezdxf.readfile(path)
+    auditor = document.audit()
     check("ezdxf finds nothing", not auditor.errors and not auditor.fixes)
-    document, _ = recover.readfile(path)  # which reads letters by their numbers
-    whole = lambda text: text.encode("utf-16-le", "surrogatepass").decode("utf-16-le")
-    read = {whole(entity.dxf.text) for entity in document.modelspace().query("TEXT")}
-    check("ezdxf reads the same names", said <= {text.replace("^ ", "^") for text in read})
+    read = {unescaped(entity.dxf.text) for entity in document.modelspace().query("TEXT")}
+    check("ezdxf reads the same names", said <= read)
 
 
 def validate(path):

@@ -82,7 +82,7 @@ tartan_unit(growth LINKS driver/open runtime/geometry/hidden runtime/growth runt
 tartan_unit(solid LINKS driver/open runtime/mesh runtime/solid PkgConfig::JANSSON)
 tartan_unit(genome LINKS driver/open runtime/genome/breeding runtime/genome/boxes runtime/genome/tree PkgConfig::JANSSON)
 tartan_unit(place LINKS driver/open driver/place runtime/place runtime/place/count runtime/place/search)
-tartan_unit(house LINKS driver/open runtime/house/floor runtime/house/export runtime/house/schedule runtime/house/rank)
+tartan_unit(house LINKS driver/open runtime/house/floor runtime/house/export runtime/house/picture runtime/house/schedule runtime/house/rank)
 tartan_unit(automata LINKS runtime/plan/schema)
 tartan_unit(choices LINKS runtime/plan/schema)
 tartan_unit(plan/schema LINKS runtime/plan/schema)

@@ -259,7 +259,7 @@ static const char *asked_of_drawings(const tn_house_request *request)
     } all[] = {{"view", request->views.count > 0}, {"cut", request->cut != NULL},
                {"furnish", request->bare},         {"scale", request->has_scale},
                {"azimuth", request->has_azimuth},  {"elevation", request->has_elevation},
-               {"dpi", request->has_dpi}};
+               {"dpi", request->has_dpi},          {"profile", request->profile > 0}};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         if (all[i].given)
             return all[i].name;
@@ -316,6 +316,7 @@ static tn_house_filed filed_of(const building *b)
                                       .elevation = request->has_elevation ? &request->elevation : NULL},
                             .scale = (uint32_t)request->scale,
                             .dpi = (uint32_t)request->dpi,
+                            .profile = (tn_profile)request->profile,
                             .watch = b->session->opened->module->watch};
 }
 

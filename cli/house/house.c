@@ -14,6 +14,7 @@ typedef struct house_settings {
     const char *form, *library, *cut, *title;
     int furnish; /* 1: no */
     tn_option_number scale, dpi, max_length, max_states;
+    int profile;
     tn_option_real azimuth, elevation;
 } house_settings;
 
@@ -145,7 +146,8 @@ static void ask(tn_job *job, const house_files *files)
                                       .elevation = s->elevation.value,
                                       .title = s->title,
                                       .has_dpi = s->dpi.given,
-                                      .dpi = s->dpi.value};
+                                      .dpi = s->dpi.value,
+                                      .profile = (unsigned)s->profile};
     tn_made_outputs outputs;
     tn_reply answer;
     tn_job_files(job, &outputs, (const char *const *)files->paths, files->count, false);
@@ -190,6 +192,9 @@ static const tn_option options[] = {
     REAL("elevation", 0, "DEGREES", elevation, "and how far above the ground (default 30)"),
     TEXT("title", 0, "TEXT", title, "the title of a picture or of an IFC file; by default the number of the house"),
     NUMBER("dpi", 0, "N", dpi, 10, 1200, "resolution of a .png (default 150)"),
+    CHOICE("profile", 0, "WORD", profile, "auto|iso|us",
+           "the names of layers of a .dxf: by ISO 13567 (iso) or by the US National CAD Standard (us); by default the "
+           "latter for houses in feet"),
     TEXT("form", 0, "NAME", form, "which form of the file; may be left out where the file has only one"),
     TEXT("library", 0, "NAME", library,
          "the library of houses that the number belongs to, or that a line with values left out is of; may be left out "

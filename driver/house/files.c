@@ -15,12 +15,12 @@ static const struct {
     const char *ending;
     tn_file_format format;
 } kinds[TN_HOUSE_FILES] = {
-    [TN_HOUSE_AS_LINE] = {NULL, TN_FILE_OTHER},        [TN_HOUSE_AS_JSON] = {".json", TN_FILE_JSON},
-    [TN_HOUSE_AS_CSV] = {".csv", TN_FILE_CSV},         [TN_HOUSE_AS_PARTS] = {".parts.csv", TN_FILE_CSV},
-    [TN_HOUSE_AS_OBJ] = {".obj", TN_FILE_OBJ},         [TN_HOUSE_AS_PLY] = {".ply", TN_FILE_PLY},
-    [TN_HOUSE_AS_GLB] = {".glb", TN_FILE_GLB},         [TN_HOUSE_AS_IFC] = {".ifc", TN_FILE_IFC},
-    [TN_HOUSE_AS_DXF] = {".dxf", TN_FILE_DXF},         [TN_HOUSE_AS_SVG] = {".svg", TN_FILE_SVG},
-    [TN_HOUSE_AS_PDF] = {".pdf", TN_FILE_PDF},         [TN_HOUSE_AS_PNG] = {".png", TN_FILE_PNG},
+    [TN_HOUSE_AS_LINE] = {NULL, TN_FILE_OTHER}, [TN_HOUSE_AS_JSON] = {".json", TN_FILE_JSON},
+    [TN_HOUSE_AS_CSV] = {".csv", TN_FILE_CSV},  [TN_HOUSE_AS_PARTS] = {".parts.csv", TN_FILE_CSV},
+    [TN_HOUSE_AS_OBJ] = {".obj", TN_FILE_OBJ},  [TN_HOUSE_AS_PLY] = {".ply", TN_FILE_PLY},
+    [TN_HOUSE_AS_GLB] = {".glb", TN_FILE_GLB},  [TN_HOUSE_AS_IFC] = {".ifc", TN_FILE_IFC},
+    [TN_HOUSE_AS_DXF] = {".dxf", TN_FILE_DXF},  [TN_HOUSE_AS_SVG] = {".svg", TN_FILE_SVG},
+    [TN_HOUSE_AS_PDF] = {".pdf", TN_FILE_PDF},  [TN_HOUSE_AS_PNG] = {".png", TN_FILE_PNG},
 };
 
 const char *tn_house_file_ending(tn_house_file kind)
@@ -66,7 +66,7 @@ static tn_status write_text(const tn_house_filed *filed, tn_house_file kind, FIL
     tn_status status = kind == TN_HOUSE_AS_JSON    ? tn_house_describe(house, filed->solids, &text, error)
                        : kind == TN_HOUSE_AS_CSV   ? tn_house_schedule(house, &text, error)
                        : kind == TN_HOUSE_AS_PARTS ? tn_house_parts(house, filed->solids, &text, error)
-                                                : tn_house_write(house, &text, error);
+                                                   : tn_house_write(house, &text, error);
     if (status == TN_OK && kind == TN_HOUSE_AS_LINE)
         tn_buffer_append(&text, "\n", 1);
     if (status == TN_OK && text.failed)
@@ -87,18 +87,9 @@ static tn_status write_mesh(const tn_house_filed *filed, tn_house_file kind, FIL
     if (status == TN_OK)
         status = kind == TN_HOUSE_AS_OBJ   ? tn_mesh_write_obj(&mesh, &style, out, error)
                  : kind == TN_HOUSE_AS_PLY ? tn_mesh_write_ply(&mesh, &style, out, error)
-                                        : tn_mesh_write_glb(&mesh, &style, out, error);
+                                           : tn_mesh_write_glb(&mesh, &style, out, error);
     tn_mesh_clear(&mesh);
     return status;
-}
-
-/* Drawings as lines. */
-static tn_status write_dxf(const tn_house_filed *filed, FILE *out, tn_error *error)
-{
-    tn_aspect aspects[TN_HOUSE_VIEWS_MAX];
-    size_t count;
-    tn_status status = tn_house_views(filed->house, &filed->views, aspects, &count, error);
-    return status == TN_OK ? tn_house_write_dxf(filed->house, filed->solids, aspects, count, out, error) : status;
 }
 
 static tn_status draw(const tn_house_filed *filed, tn_house_drawing *drawing, tn_house_file kind, FILE *out,
@@ -107,8 +98,10 @@ static tn_status draw(const tn_house_filed *filed, tn_house_drawing *drawing, tn
     tn_buffer line = {0};
     tn_picture to = {.format = kind == TN_HOUSE_AS_SVG   ? TN_CANVAS_SVG
                                : kind == TN_HOUSE_AS_PDF ? TN_CANVAS_PDF
-                                                      : TN_CANVAS_PNG,
+                               : kind == TN_HOUSE_AS_DXF ? TN_CANVAS_DXF
+                                                         : TN_CANVAS_PNG,
                      .dpi = filed->dpi,
+                     .profile = filed->profile,
                      .watch = filed->watch};
     tn_status status = tn_house_write(filed->house, &line, error);
     const char *notes[] = {line.data ? line.data : ""};
@@ -128,11 +121,8 @@ static tn_status write_picture(const tn_house_filed *filed, tn_house_file kind, 
     tn_aspect aspects[TN_HOUSE_VIEWS_MAX];
     size_t count;
     tn_status status = tn_house_views(filed->house, &filed->views, aspects, &count, error);
-    tn_house_drawing drawing = {.aspects = aspects,
-                                .count = count,
-                                .title = title_of(filed),
-                                .note_count = count > 1,
-                                .scale = filed->scale};
+    tn_house_drawing drawing = {
+        .aspects = aspects, .count = count, .title = title_of(filed), .note_count = count > 1, .scale = filed->scale};
     return status == TN_OK ? draw(filed, &drawing, kind, out, error) : status;
 }
 
@@ -146,7 +136,6 @@ tn_status tn_house_file_write(const tn_house_filed *filed, tn_house_file kind, F
     case TN_HOUSE_AS_IFC:
         return tn_house_write_ifc(filed->house, filed->solids, title_of(filed), out, error);
     case TN_HOUSE_AS_DXF:
-        return write_dxf(filed, out, error);
     case TN_HOUSE_AS_SVG:
     case TN_HOUSE_AS_PDF:
     case TN_HOUSE_AS_PNG:

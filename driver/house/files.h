@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "runtime/base/formats.h"
+#include "runtime/base/picture.h"
 #include "runtime/base/watch.h"
 #include "runtime/house/model/views.h"
 
@@ -44,6 +45,7 @@ typedef struct tn_house_filed {
     const char *title; /* of sheets and of the building model; NULL: what the form says of itself */
     tn_views views;
     uint32_t scale, dpi; /* of drawings, 1:scale; 0: as it suits, 150 */
+    tn_profile profile;  /* of drawings: whose names the layers of a DXF have */
     tn_watch *watch;     /* or NULL */
 } tn_house_filed;
 

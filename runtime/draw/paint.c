@@ -599,9 +599,10 @@ void tn_paint_symbol(tn_paint *paint, const tn_drawn_symbol *symbol, double x, d
 /* ---- dimensions. Shares of the size of the lettering */
 
 #define DIMENSION_GAP 0.4    /* from a point to the line out from it */
-#define DIMENSION_BEYOND 0.3 /* how far that goes past the line of the dimension */
-#define DIMENSION_STROKE 0.3 /* half of how far an oblique stroke reaches, across and up */
-#define DIMENSION_RAISED 0.3 /* from the line to the text */
+#define DIMENSION_BEYOND 0.6 /* how far that goes past the line of the dimension; without an offset to both sides */
+#define DIMENSION_STROKE 0.4 /* half of how far an oblique stroke reaches, across and up */
+#define DIMENSION_RAISED 0.4 /* from the line to the text's baseline */
+#define DIMENSION_BELOW 1.1
 
 static void trace_line(tn_paint *paint, double x0, double y0, double x1, double y1)
 {
@@ -616,7 +617,8 @@ static void trace_dimension(tn_paint *paint, const tn_dimension *d, const double
     const double *points[2] = {d->from, d->to};
     double size = paint->now.size, out = d->offset < 0 ? -1 : 1, stroke = DIMENSION_STROKE * size;
     for (int i = 0; i < 2; i++) {
-        double gap = out * fmin(DIMENSION_GAP * size, fabs(d->offset)), past = out * DIMENSION_BEYOND * size;
+        double past = out * DIMENSION_BEYOND * size,
+               gap = d->offset == 0 ? -past : out * fmin(DIMENSION_GAP * size, fabs(d->offset));
         double x = stroke * (along[0] + aside[0]), y = stroke * (along[1] + aside[1]);
         trace_line(paint, points[i][0] + gap * aside[0], points[i][1] + gap * aside[1], ends[i][0] + past * aside[0],
                    ends[i][1] + past * aside[1]);
@@ -627,7 +629,7 @@ static void trace_dimension(tn_paint *paint, const tn_dimension *d, const double
 }
 
 /* To be read from below, or from the right. */
-static void write_dimension(tn_paint *paint, const char *text, const double ends[2][2])
+static void write_dimension(tn_paint *paint, const tn_dimension *d, const double ends[2][2])
 {
     double dx = ends[1][0] - ends[0][0], dy = ends[1][1] - ends[0][1];
     if (dx < 0 || (dx == 0 && dy > 0)) {
@@ -637,7 +639,8 @@ static void write_dimension(tn_paint *paint, const char *text, const double ends
     tn_paint_save(paint);
     tn_paint_translate(paint, (ends[0][0] + ends[1][0]) / 2, (ends[0][1] + ends[1][1]) / 2);
     tn_paint_rotate(paint, tn_atan2(dy, dx));
-    tn_paint_text(paint, 0, -DIMENSION_RAISED * paint->now.size, TN_ALIGN_CENTRE, text);
+    tn_paint_text(paint, 0, (d->below ? DIMENSION_BELOW : -DIMENSION_RAISED) * paint->now.size, TN_ALIGN_CENTRE,
+                  d->text);
     tn_paint_restore(paint);
 }
 
@@ -659,7 +662,7 @@ void tn_paint_dimension(tn_paint *paint, const tn_dimension *d)
     if (does->begin_dimension)
         note(paint, does->begin_dimension(paint->device, &drawn));
     trace_dimension(paint, d, ends, along, aside);
-    write_dimension(paint, d->text, ends);
+    write_dimension(paint, d, ends);
     if (does->begin_dimension && draws(paint))
         note(paint, does->end_dimension(paint->device));
 }

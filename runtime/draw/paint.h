@@ -83,21 +83,22 @@ typedef struct tn_drawn_symbol {
 void tn_paint_symbol(tn_paint *paint, const tn_drawn_symbol *symbol, double x, double y, double angle, bool mirrored);
 
 /* A dimension: the distance of two points along a line that is parallel to them, `offset` aside (to the left as one
- * goes from the first to the second; negative: to the right). */
+ * goes from the first to the second; negative: to the right). text: above the line, or below it; or empty. */
 typedef struct tn_dimension {
     double from[2], to[2];
     double offset;
     const char *text;
+    bool below;
 } tn_dimension;
 
 /* Draws it with the state's pen, colour and face: lines out from the points, the line between them, an oblique stroke
- * at each of its ends, and the text above its middle, to be read from below or from the right. A path at hand is lost.
+ * at each of its ends, and the text at its middle, to be read from below or from the right. A path at hand is lost.
  * The text is as it is given: a caller asks tn_paint_text_width whether it has room. */
 void tn_paint_dimension(tn_paint *paint, const tn_dimension *dimension);
 
-/* What is drawn until its end is a drawing to scale, that of the canvas (its options), with a frame and an origin in the
- * state's units: in a DXF it stands in model space at its true size, measured from the origin, and a viewport shows it
- * on the sheet. Views do not nest. What is drawn in none belongs to the sheet. */
+/* What is drawn until its end is a drawing to scale, that of the canvas (its options), with a frame and an origin in
+ * the state's units: in a DXF it stands in model space at its true size, measured from the origin, and a viewport shows
+ * it on the sheet. Views do not nest. What is drawn in none belongs to the sheet. */
 void tn_paint_view_begin(tn_paint *paint, const tn_drawn_view *view);
 void tn_paint_view_end(tn_paint *paint);
 

@@ -20,6 +20,8 @@ read_back "$scratch/meanings.dxf" INSERT=17 HATCH=7 DIMENSION=5 LWPOLYLINE=8
 read_back "$scratch/feet.dxf" LWPOLYLINE=50
 read_back "$scratch/iso.dxf" LWPOLYLINE=50
 read_back "$scratch/table.dxf" LINE=16
+"$TARTAN" house "$files/cabins.plan" "#10:77" -o "$scratch/house.dxf" || fail "house.dxf is not written"
+read_back "$scratch/house.dxf" DIMENSION=10 HATCH=2 LINE=100
 refused() {
     local words=$1
     shift

@@ -183,7 +183,7 @@ golden view_cut "tartan house cabins.plan \"$room\" -o $scratch/h.svg --cut cell
 golden no_number "tartan house cabins.plan '#ten'"
 row="2.2m first two room:5m room:4m room:3m | 4m - two room:5m room:4m none ; 2 shed(back,3:5) shed(front,3:4) flat brick"
 "$TARTAN" house row-houses "$row ; stair stair lobby landing larder bath | parlour bedroom kitchen bedroom" -o "$scratch/row.dxf"
-is 'sections of a sheet that are beside the wall in the middle' "$(grep -a '^section' "$scratch/row.dxf" | tr -d '\r' | tr '\n' ' ')" 'section x = 1.55m section y = 6m '
+is 'sections of a sheet that are beside the wall in the middle' "$(sed -n 's/^.-.  section/section/p' "$scratch/row.dxf" | tr -d '\r' | tr '\n' ' ')" 'section x = 1.55m section y = 6m '
 # leftmost_cuts FILE: of each drawing the least x of what is cut.
 leftmost_cuts() {
     python3 - "$1" <<'PYTHON'
@@ -500,13 +500,14 @@ golden gallery_behind "tartan house gallery.plan '$inn ; open open'"
 golden gallery_behind_full "tartan explain gallery.plan '$inn ; open' --full | grep -A 2 roofs"
 is 'houses with galleries, one by one' "$("$TARTAN" enumerate "$files/gallery.plan" --library inns | wc -l)" 14312
 # Doors hang and open where nothing stands; names stand where nothing is below them.
-arcs_and_names() {
-    tartan house "$1" "$2" --view plan:ground -o "$scratch/plan.dxf" && tr -d '\r' <"$scratch/plan.dxf" | awk '
+leaves_and_names() {
+    tartan house "$1" "$2" --profile us --view plan:ground -o "$scratch/plan.dxf" && tr -d '\r' <"$scratch/plan.dxf" | awk '
         NR % 2 { code = $1; next }
-        code == 0 { if (layer == "DOORS" && kind == "ARC" || layer == "NAMES") print kind, text, x, y, from; kind = $0; text = from = "" }
-        code == 8 { layer = $0 } code == 1 { text = $0 } code == 10 { x = $0 } code == 20 { y = $0 } code == 50 { from = $0 }'
+        code == 0 { if (kind == "INSERT" || layer == "A-AREA-IDEN") print kind, text, x, y, mirrored, turned; kind = $0; text = mirrored = turned = "" }
+        code == 8 { layer = $0 } code == 1 || code == 2 { text = $0 } code == 10 { x = $0 } code == 20 { y = $0 }
+        code == 41 { mirrored = $0 } code == 50 { turned = $0 }'
 }
 for number in 0 1 2; do
-    golden "swing_$number" "arcs_and_names swing.plan \"\$(tartan unrank swing.plan '#0:$number')\""
+    golden "swing_$number" "leaves_and_names swing.plan \"\$(tartan unrank swing.plan '#0:$number')\""
 done
 finish

@@ -11,7 +11,7 @@ hut="14' room:14' none ; 1 gable(9:12) 1 flat ; kitchen ; wall window wall wall 
 # made FILE HOUSE FOLDER OPTION...: writes the files that are looked at.
 made() {
     mkdir -p "$scratch/$3"
-    "$TARTAN" house "$1" "$2" "${@:4}" -o "$scratch/$3/house.json" -o "$scratch/$3/house.ifc" -o "$scratch/$3/house.dxf" -o "$scratch/$3/house.parts.csv"
+    "$TARTAN" house "$1" "$2" "${@:4}" --profile us -o "$scratch/$3/house.json" -o "$scratch/$3/house.ifc" -o "$scratch/$3/house.dxf" -o "$scratch/$3/house.parts.csv"
 }
 python=python3
 /usr/bin/python3 -c 'import ezdxf' 2>/dev/null && python=/usr/bin/python3 # another Python may come first, without the package

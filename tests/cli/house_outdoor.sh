@@ -23,7 +23,7 @@ golden check "tartan check $scratch/rooms.plan"
 python=python3
 /usr/bin/python3 -c 'import ezdxf' 2>/dev/null && python=/usr/bin/python3
 for number in 5 700; do
-    "$TARTAN" house "$porch" "$(sed -n "${number}p" all)" -o house.json -o house.ifc -o house.dxf -o house.parts.csv >/dev/null
+    "$TARTAN" house "$porch" "$(sed -n "${number}p" all)" -o house.json -o house.ifc --profile us -o house.dxf -o house.parts.csv >/dev/null
     is "files of house $number" "$($python "$tests/house_files.py" .)" fine
 done
 is 'spaces in the open' "$(grep -c 'IFCSPACE.*EXTERNAL' house.ifc)" "$(sed -n 700p all | cut -d';' -f3 | grep -oE 'porch|yard' | wc -l)"

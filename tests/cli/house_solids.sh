@@ -12,7 +12,7 @@ python=python3
 looked() {
     rm -rf "$scratch/made"
     mkdir "$scratch/made"
-    "$TARTAN" house "$1" "$2" -o "$scratch/made/house.json" -o "$scratch/made/house.ifc" -o "$scratch/made/house.dxf" -o "$scratch/made/house.parts.csv" \
+    "$TARTAN" house "$1" "$2" -o "$scratch/made/house.json" -o "$scratch/made/house.ifc" -o "$scratch/made/house.dxf" --profile us -o "$scratch/made/house.parts.csv" \
         -o "$scratch/made/house.obj" -o "$scratch/made/house.glb"
     is "$3: solids" "$($python "$here/../house_solids.py" "$scratch/made")" fine
     is "$3: files" "$($python "$here/../house_files.py" "$scratch/made")" fine

@@ -3,7 +3,6 @@ import os
 import re
 import subprocess
 import sys
-from collections import Counter
 from fractions import Fraction
 
 from program import answer, json_lines, read_json, same
@@ -26,7 +25,8 @@ def built(subject, house, *endings):
     os.makedirs(folder, exist_ok=True)
     outputs = [part for ending in endings for part in ("-o", os.path.join(folder, "house." + ending))]
     of = subject.options if house[0] == "#" else ["--form", subject.using()]
-    answer("house", subject.path, house, *of, *outputs)
+    layers = ["--profile", "us"] if "dxf" in endings else []
+    answer("house", subject.path, house, *of, *layers, *outputs)
     return folder
 
 
@@ -64,24 +64,24 @@ def solids(subject):
 
 
 def swings(subject):
-    """Each door that hangs in a passage has one arc on the plans."""
+    """Each leaf of a door that hangs in a passage has one symbol on the plans."""
     for rank in some_ranks(subject)[-1:]:
         if not has_cells(subject, rank):
             continue
         folder = built(subject, f"#{rank}", "json", "dxf")
         hung = openings(subject, "passage") - openings(subject, "leafless") - openings(subject, "sliding")
         doors = sum(face["kind"] in hung for face in read(folder)["faces"])
-        same("arcs of doors on plans", entities(os.path.join(folder, "house.dxf"))["ARC", "DOORS"], doors)
+        same("leaves of doors on plans", leaves(os.path.join(folder, "house.dxf")), doors)
 
 
-def entities(path):
-    """How many entities of a DXF file are of which kind on which layer."""
-    with open(path, encoding="ascii") as file:
+def leaves(path):
+    """How many symbols of doors a DXF file inserts."""
+    with open(path, encoding="utf-8") as file:
         lines = file.read().split("\n")
-    counted, kind = Counter(), None
+    counted, kind = 0, None
     for code, value in zip(lines[0:-1:2], lines[1::2]):
         kind = value if code.strip() == "0" else kind
-        counted[kind, value] += code.strip() == "8"
+        counted += kind == "INSERT" and code.strip() == "2" and value.startswith("DOOR-")
     return counted
 
 

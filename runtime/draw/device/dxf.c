@@ -260,6 +260,14 @@ static bool stroke_arc(dxf *d, const tn_drawn_step *arc, const tn_pen *pen, cons
     return true;
 }
 
+/* Is the subpath one arc alone, or a circle that is closed? */
+static bool is_arc(const tn_drawn_path *path, size_t from, size_t end)
+{
+    const tn_drawn_step *arc = &path->steps[from + 1];
+    bool whole = end == from + 3 && fabs(arc->to - arc->from) >= WHOLE * 0.999;
+    return (end == from + 2 || (whole && path->steps[from + 2].kind == TN_DRAWN_CLOSE)) && arc->kind == TN_DRAWN_ARC;
+}
+
 static bool stroke_line(dxf *d, const tn_pen *pen, const tn_ink *ink)
 {
     begin(d, "LINE");
@@ -292,7 +300,7 @@ static tn_status stroke(tn_device *device, const tn_drawn_path *path, const tn_p
         end = collect(d, path, i, &closed, &fine);
         if (!fine || d->corner_count < 2)
             continue;
-        if (end == i + 2 && path->steps[i + 1].kind == TN_DRAWN_ARC)
+        if (is_arc(path, i, end))
             fine = stroke_arc(d, &path->steps[i + 1], pen, ink);
         else if (d->corner_count == 2 && d->corners[0].bulge == 0 && d->corners[1].bulge == 0)
             fine = stroke_line(d, pen, ink);
@@ -594,9 +602,11 @@ static tn_status end_dimension(tn_device *device)
     tn_buffer_printf(d->now.entities, "2\n%s\n", d->content.blocks[d->dimension].name);
     put_point(d, 10, at->line[1][0], at->line[1][1]);
     put_point(d, 11, (at->line[0][0] + at->line[1][0]) / 2, (at->line[0][1] + at->line[1][1]) / 2);
-    tn_buffer_printf(d->now.entities, "70\n33\n71\n8\n");
+    tn_buffer_printf(d->now.entities, "70\n32\n71\n8\n");
     tn_dxf_put(d->now.entities, 42, length);
-    if (says_length(&d->content, at->text, length))
+    if (!at->text[0])
+        tn_buffer_printf(d->now.entities, "1\n \n"); /* a blank: nothing is written */
+    else if (says_length(&d->content, at->text, length))
         tn_buffer_printf(d->now.entities, "1\n\n");
     else
         tn_dxf_put_text(d->now.entities, 1, at->text);
@@ -604,6 +614,9 @@ static tn_status end_dimension(tn_device *device)
     put_class(d, "AcDbAlignedDimension");
     put_point(d, 13, at->from[0], at->from[1]);
     put_point(d, 14, at->to[0], at->to[1]);
+    tn_dxf_put(d->now.entities, 50,
+               degrees(tn_atan2(at->line[1][1] - at->line[0][1], at->line[1][0] - at->line[0][0])));
+    put_class(d, "AcDbRotatedDimension");
     for (int i = 0; i < 2; i++)
         widen(d, at->line[i]);
     widen(d, at->from);

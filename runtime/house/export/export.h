@@ -1,4 +1,4 @@
-/* Houses for other programs: meshes, building models (IFC) and drawings (DXF). */
+/* Houses for other programs: meshes and building models (IFC). */
 #ifndef TARTAN_HOUSE_EXPORT_H
 #define TARTAN_HOUSE_EXPORT_H
 
@@ -22,10 +22,5 @@ void tn_house_mesh_colours(const tn_house_form *form, unsigned char colours[TN_H
  * TN_MEMORY. */
 tn_status tn_house_write_ifc(const tn_house *house, const tn_solids *solids, const char *name, FILE *out,
                              tn_error *error);
-
-/* DXF, release 2000, in millimetres: the drawings side by side, hidden lines removed, a layer for each kind of line.
- * Errors as tn_house_projection_take. */
-tn_status tn_house_write_dxf(const tn_house *house, const tn_solids *solids, const tn_aspect *aspects, size_t count,
-                             FILE *out, tn_error *error);
 
 #endif

@@ -274,8 +274,11 @@ void tn_house_projection_extent(const tn_house_projection *projection, double lo
     }
     for (size_t i = 0; i < projection->marks.count; i++) {
         const tn_mark *m = &projection->marks.items[i];
-        double wide = tn_mark_width(m->text) * m->high / 2, tall = m->high / 2;
-        stretch(low, high, m->u0, m->v0, m->upright ? tall : wide, m->upright ? wide : tall);
+        bool span = m->kind == TN_MARK_SPAN;
+        double wide = tn_mark_width(m->text) * m->high / 2, tall = span ? 1.25 * m->high : m->high / 2,
+               u = span ? (m->u0 + m->u1) / 2 : m->u0, v = span ? (m->v0 + m->v1) / 2 : m->v0;
+        stretch(low, high, u, v, m->upright ? tall : wide, m->upright ? wide : tall);
+        stretch(low, high, m->u0, m->v0, 0, 0);
         stretch(low, high, m->u1, m->v1, 0, 0);
     }
 }

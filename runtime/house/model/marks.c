@@ -30,15 +30,15 @@ void tn_marks_line(tn_marks *marks, tn_mark_layer layer, double u0, double v0, d
     add(marks, (tn_mark){TN_MARK_LINE, layer, u0, v0, u1, v1, .high = 0});
 }
 
-void tn_marks_arc(tn_marks *marks, tn_mark_layer layer, double u0, double v0, double u1, double v1)
+void tn_marks_leaf(tn_marks *marks, double u0, double v0, double u1, double v1, bool right)
 {
-    add(marks, (tn_mark){TN_MARK_ARC, layer, u0, v0, u1, v1, .high = 0});
+    add(marks, (tn_mark){TN_MARK_LEAF, TN_MARK_DOOR, u0, v0, u1, v1, .right = right});
 }
 
 void tn_marks_text(tn_marks *marks, tn_mark_layer layer, double u, double v, double high, bool upright,
                    const char *text)
 {
-    tn_mark mark = {TN_MARK_TEXT, layer, u, v, u, v, high, upright, ""};
+    tn_mark mark = {TN_MARK_TEXT, layer, u, v, u, v, .high = high, .upright = upright};
     tn_utf8_copy(text, sizeof mark.text, mark.text);
     add(marks, mark);
 }
@@ -109,53 +109,45 @@ static int by_place(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* A point of a chain: along it, and aside from it, upwards or (upright) to the right. */
-static void put_stroke(tn_marks *marks, bool upright, const double from[2], const double to[2])
-{
-    tn_marks_line(marks, TN_MARK_DIMENSION, from[upright], from[!upright], to[upright], to[!upright]);
-}
-
 /* Where what is written on either side of a chain ends so far. */
 typedef struct chain_text {
     double end[2];
 } chain_text;
 
-/* What a dimension says: above the line if it has room there, or else below it. */
+/* A dimension and what it says: above the line if it has room there, or else below it, or nothing. */
 static void put_length(tn_marks *marks, const tn_house *house, double from, double to, double at, bool upright,
                        const tn_mark_style *style, chain_text *so_far)
 {
+    tn_mark mark = {.kind = TN_MARK_SPAN,
+                    .layer = TN_MARK_DIMENSION,
+                    .u0 = upright ? at : from,
+                    .v0 = upright ? from : at,
+                    .u1 = upright ? at : to,
+                    .v1 = upright ? to : at,
+                    .high = style->lettering,
+                    .upright = upright};
     char text[32];
     tn_mark_length(house, style->us, to - from, text);
     double half = tn_mark_width(text) * style->lettering / 2, middle = (from + to) / 2;
-    for (int below = 2 * half > to - from; below < 2; below++) {
-        double aside = below ? -0.75 * style->lettering : 0.75 * style->lettering,
-               v = upright ? at - aside : at + aside;
+    for (int below = 2 * half > to - from; below < 2 && !mark.text[0]; below++) {
         if (middle - half < so_far->end[below])
             continue;
-        tn_marks_text(marks, TN_MARK_DIMENSION, upright ? v : middle, upright ? middle : v, style->lettering, upright,
-                      text);
+        mark.below = below > 0;
+        tn_utf8_copy(text, sizeof mark.text, mark.text);
         so_far->end[below] = middle + half;
-        return;
     }
+    add(marks, mark);
 }
 
 void tn_marks_chain(tn_marks *marks, const tn_house *house, double *places, size_t count, double at, bool upright,
                     const tn_mark_style *style)
 {
     size_t stops = 0;
-    double tick = style->lettering * 0.4;
     chain_text so_far = {{-INFINITY, -INFINITY}};
     qsort(places, count, sizeof *places, by_place);
     for (size_t i = 0; i < count; i++)
         if (stops == 0 || places[i] > places[stops - 1])
             places[stops++] = places[i];
-    if (stops < 2)
-        return;
-    put_stroke(marks, upright, (double[]){places[0], at}, (double[]){places[stops - 1], at});
-    for (size_t i = 0; i < stops; i++) {
-        put_stroke(marks, upright, (double[]){places[i] - tick, at - tick}, (double[]){places[i] + tick, at + tick});
-        put_stroke(marks, upright, (double[]){places[i], at - 2 * tick}, (double[]){places[i], at + 2 * tick});
-    }
     for (size_t i = 1; i < stops; i++)
         put_length(marks, house, places[i - 1], places[i], at, upright, style, &so_far);
 }

@@ -22,9 +22,10 @@ typedef enum tn_mark_layer {
 
 typedef enum tn_mark_kind {
     TN_MARK_LINE,   /* from (u0, v0) to (u1, v1) */
-    TN_MARK_ARC,    /* a quarter about (u0, v0), counter-clockwise from (u1, v1) */
     TN_MARK_TEXT,   /* in the middle of (u0, v0), so high; upright: read from the right */
     TN_MARK_CIRCLE, /* about (u0, v0), through (u1, v1) */
+    TN_MARK_SPAN,   /* a dimension from (u0, v0) to (u1, v1), its text so high; or below the line; or empty */
+    TN_MARK_LEAF    /* of a door, hinged at (u0, v0) and open to (u1, v1); shut to its left, or to its right */
 } tn_mark_kind;
 
 typedef struct tn_mark {
@@ -32,7 +33,7 @@ typedef struct tn_mark {
     tn_mark_layer layer;
     double u0, v0, u1, v1;
     double high;
-    bool upright;
+    bool upright, below, right;
     char text[48];
 } tn_mark;
 
@@ -53,8 +54,8 @@ typedef struct tn_section_place {
 
 /* How the marks of a drawing are written. lettering: the size of what is written, whose capitals are 2.5 mm high on
  * paper. us: lengths in feet and inches, areas in square feet, rooms numbered from 101; otherwise in metres, or in
- * millimetres if the form's author writes these, in square metres, and from 0.01. coarse: the scale is too small for tags, and
- * for dimensions of openings. sections: what is shown in plans. */
+ * millimetres if the form's author writes these, in square metres, and from 0.01. coarse: the scale is too small for
+ * tags, and for dimensions of openings. sections: what is shown in plans. */
 typedef struct tn_mark_style {
     double lettering;
     bool us, coarse;
@@ -77,7 +78,7 @@ void tn_mark_area(bool us, double square_nanometres, char text[32]);
 void tn_marks_chain(tn_marks *marks, const tn_house *house, double *places, size_t count, double at, bool upright,
                     const tn_mark_style *style);
 void tn_marks_line(tn_marks *marks, tn_mark_layer layer, double u0, double v0, double u1, double v1);
-void tn_marks_arc(tn_marks *marks, tn_mark_layer layer, double u0, double v0, double u1, double v1); /* a quarter */
+void tn_marks_leaf(tn_marks *marks, double u0, double v0, double u1, double v1, bool right);
 void tn_marks_text(tn_marks *marks, tn_mark_layer layer, double u, double v, double high, bool upright,
                    const char *text);
 

@@ -90,9 +90,7 @@ static void put_leaf(tn_marks *marks, const tn_door_leaf *leaf)
     double h[2] = {leaf->hinge, leaf->face}, s[2] = {leaf->shut, leaf->face}, t[2] = {leaf->hinge, tip};
     int u = leaf->in_y ? 1 : 0, v = 1 - u;
     double turn = (s[u] - h[u]) * (t[v] - h[v]) - (s[v] - h[v]) * (t[u] - h[u]);
-    const double *from = turn > 0 ? s : t; /* quarters go counter-clockwise */
-    tn_marks_line(marks, TN_MARK_DOOR, h[u], h[v], t[u], t[v]);
-    tn_marks_arc(marks, TN_MARK_DOOR, h[u], h[v], from[u], from[v]);
+    tn_marks_leaf(marks, h[u], h[v], t[u], t[v], turn > 0);
 }
 
 /* A leaf that slides, where it is shut. */

@@ -18,6 +18,7 @@ static inline double tn_line_points(tn_line_weight weight)
 
 /* A drawing of a sheet, and where it stands. */
 typedef struct tn_house_drawn {
+    bool outlines;              /* given: it is drawn where nothing covers what is below it (tn_paint_covers) */
     const tn_house_form *form;  /* lent */
     double (*layer_colours)[3]; /* [layers of the form] where they are cut; owned, NULL if there are none */
     tn_house_projection projection;

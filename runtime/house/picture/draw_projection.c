@@ -1,5 +1,6 @@
 /* Paints one drawing of a house: what is seen in colour, what was cut, hatched, then its lines and its marks. */
 #include <math.h>
+#include <stdio.h>
 
 #include "runtime/draw/type.h"
 #include "runtime/house/picture/draw_parts.h"
@@ -22,7 +23,7 @@ static double place_v(const tn_drawing_frame *f, double v)
 
 /* ---- what was cut */
 
-#define HATCH_POINTS 3.6 /* between the lines, across the page */
+#define HATCH_SIZE 1.6 /* of the pattern */
 
 static void trace_cuts(const tn_drawing_frame *f, const tn_house_projection *p, bool panes)
 {
@@ -38,31 +39,29 @@ static void trace_cuts(const tn_drawing_frame *f, const tn_house_projection *p, 
     }
 }
 
-static void hatch(const tn_drawing_frame *f, const tn_house_projection *p)
+static void hatch(const tn_drawing_frame *f)
 {
-    double x0 = place_u(f, p->low[0]), x1 = place_u(f, p->high[0]), y0 = place_v(f, p->high[1]),
-           y1 = place_v(f, p->low[1]);
-    tn_paint_save(f->paint);
-    tn_paint_clip(f->paint);
+    tn_paint_layer(f->paint, TN_LAYER_HATCH);
     tn_paint_line_width(f->paint, tn_line_points(TN_STROKE_HATCH));
-    for (double x = x0 - (y1 - y0); x < x1; x += HATCH_POINTS) {
-        tn_paint_move_to(f->paint, x, y1);
-        tn_paint_line_to(f->paint, x + (y1 - y0), y0);
-    }
     tn_paint_colour(f->paint, 0.25, 0.25, 0.28);
-    tn_paint_stroke(f->paint);
-    tn_paint_restore(f->paint);
+    tn_paint_hatch(f->paint, TN_HATCH_DIAGONAL, HATCH_SIZE);
 }
 
+/* In colour where that covers what is below it. */
 static void fill_cuts(const tn_drawing_frame *f, const tn_house_projection *p)
 {
-    trace_cuts(f, p, true);
-    tn_paint_colour(f->paint, 0.2, 0.35, 0.5);
-    tn_paint_fill(f->paint);
+    bool colour = tn_paint_covers(f->paint);
+    if (colour) {
+        trace_cuts(f, p, true);
+        tn_paint_colour(f->paint, 0.2, 0.35, 0.5);
+        tn_paint_fill(f->paint);
+    }
     trace_cuts(f, p, false);
-    tn_paint_colour(f->paint, 0.86, 0.86, 0.87);
-    tn_paint_fill_keep(f->paint);
-    hatch(f, p);
+    if (colour) {
+        tn_paint_colour(f->paint, 0.86, 0.86, 0.87);
+        tn_paint_fill_keep(f->paint);
+    }
+    hatch(f);
 }
 
 /* ---- layers of what was cut */
@@ -89,7 +88,7 @@ static void trace_line(const tn_drawing_frame *f, const tn_drawn_line *line)
 }
 
 /* Light, in the colours of their materials; the thickest of each part is hatched. */
-static void paint_layers(const tn_drawing_frame *f, const tn_house_drawn *drawn)
+static void fill_layers(const tn_drawing_frame *f, const tn_house_drawn *drawn)
 {
     const tn_house_projection *p = &drawn->projection;
     size_t shown = 0;
@@ -109,11 +108,16 @@ static void paint_layers(const tn_drawing_frame *f, const tn_house_drawn *drawn)
     for (size_t i = 0; i < p->layer_count; i++)
         if (is_drawn(f, &p->layers[i]) && p->layers[i].main)
             trace_layer(f, &p->layers[i]);
-    hatch(f, p);
+    hatch(f);
+}
+
+static void paint_joints(const tn_drawing_frame *f, const tn_house_projection *p)
+{
     tn_paint_new_path(f->paint);
     for (size_t i = 0; i < p->joint_count; i++)
         if (is_drawn(f, tn_joint_layer(p, &p->joints[i])))
             trace_line(f, &p->joints[i]);
+    tn_paint_layer(f->paint, TN_LAYER_HATCH);
     tn_paint_colour(f->paint, 0.1, 0.1, 0.1);
     tn_paint_line_width(f->paint, tn_line_points(TN_STROKE_THIN));
     tn_paint_stroke(f->paint);
@@ -121,16 +125,32 @@ static void paint_layers(const tn_drawing_frame *f, const tn_house_drawn *drawn)
 
 /* ---- edges */
 
+/* The layers of each kind of part, where it is seen and where it is cut. */
+static const tn_layer part_layers[TN_GROUP_COUNT][2] = {
+    [TN_GROUP_WALL] = {TN_LAYER_WALL, TN_LAYER_WALL_CUT}, [TN_GROUP_FLOOR] = {TN_LAYER_FLOOR, TN_LAYER_FLOOR_CUT},
+    [TN_GROUP_ROOF] = {TN_LAYER_ROOF, TN_LAYER_ROOF_CUT}, [TN_GROUP_ITEM] = {TN_LAYER_FURNITURE, TN_LAYER_FURNITURE},
+    [TN_GROUP_PANE] = {TN_LAYER_WINDOW, TN_LAYER_WINDOW}, [TN_GROUP_LEAF] = {TN_LAYER_DOOR, TN_LAYER_DOOR},
+    [TN_GROUP_GUARD] = {TN_LAYER_GUARD, TN_LAYER_GUARD},  [TN_GROUP_FLIGHT] = {TN_LAYER_STAIR, TN_LAYER_STAIR},
+};
+
+static tn_layer layer_of(const tn_drawn_line *line)
+{
+    return part_layers[line->group % TN_GROUP_COUNT][line->cut];
+}
+
 static void paint_lines(const tn_drawing_frame *f, const tn_house_projection *p, tn_line_weight weight)
 {
     tn_paint_new_path(f->paint);
-    for (size_t i = 0; i < p->line_count; i++)
-        if (p->lines[i].weight == weight)
-            trace_line(f, &p->lines[i]);
     tn_paint_colour(f->paint, 0, 0, 0);
     tn_paint_line_width(f->paint, tn_line_points(weight));
     tn_paint_line_cap(f->paint, TN_CAP_ROUND);
-    tn_paint_stroke(f->paint);
+    for (int layer = TN_LAYER_NONE + 1; layer < TN_LAYER_COUNT; layer++) {
+        for (size_t i = 0; i < p->line_count; i++)
+            if (p->lines[i].weight == weight && (int)layer_of(&p->lines[i]) == layer)
+                trace_line(f, &p->lines[i]);
+        tn_paint_layer(f->paint, (tn_layer)layer);
+        tn_paint_stroke(f->paint);
+    }
     tn_paint_line_cap(f->paint, TN_CAP_BUTT);
 }
 
@@ -139,22 +159,52 @@ static void paint_lines(const tn_drawing_frame *f, const tn_house_projection *p,
 typedef struct mark_pen {
     tn_line_weight weight;
     double grey, dash;
+    tn_layer layer;
 } mark_pen;
 
 static const mark_pen pens[TN_MARK_LAYERS] = {
-    [TN_MARK_DOOR] = {TN_STROKE_THIN, 0, 0},      [TN_MARK_STAIR] = {TN_STROKE_THIN, 0, 0},
-    [TN_MARK_VOID] = {TN_STROKE_THIN, 0.3, 3},    [TN_MARK_GROUND] = {TN_STROKE_CUT, 0, 0},
-    [TN_MARK_DIMENSION] = {TN_STROKE_THIN, 0, 0}, [TN_MARK_NAME] = {TN_STROKE_THIN, 0, 0},
-    [TN_MARK_TAG] = {TN_STROKE_THIN, 0, 0},       [TN_MARK_SECTION] = {TN_STROKE_CUT, 0, 0},
+    [TN_MARK_DOOR] = {TN_STROKE_THIN, 0, 0, TN_LAYER_DOOR},
+    [TN_MARK_STAIR] = {TN_STROKE_THIN, 0, 0, TN_LAYER_STAIR},
+    [TN_MARK_VOID] = {TN_STROKE_THIN, 0.3, 3, TN_LAYER_OVERHEAD},
+    [TN_MARK_GROUND] = {TN_STROKE_CUT, 0, 0, TN_LAYER_GROUND},
+    [TN_MARK_DIMENSION] = {TN_STROKE_THIN, 0, 0, TN_LAYER_DIMENSION},
+    [TN_MARK_NAME] = {TN_STROKE_THIN, 0, 0, TN_LAYER_ROOM},
+    [TN_MARK_TAG] = {TN_STROKE_THIN, 0, 0, TN_LAYER_SYMBOL},
+    [TN_MARK_SECTION] = {TN_STROKE_CUT, 0, 0, TN_LAYER_SYMBOL},
 };
 
-static void paint_arc(const tn_drawing_frame *f, const tn_mark *m)
+/* A leaf that stands open upwards from its hinge, and the quarter through which it goes, to its right. */
+static void draw_leaf(tn_paint *paint, const void *of)
 {
-    double x = place_u(f, m->u0), y = place_v(f, m->v0), dx = place_u(f, m->u1) - x, dy = place_v(f, m->v1) - y;
-    double from = fabs(dx) > fabs(dy) ? (dx > 0 ? 0 : M_PI) : (dy > 0 ? M_PI / 2 : -M_PI / 2);
-    tn_paint_new_sub_path(f->paint);
-    tn_paint_arc_negative(f->paint, x, y, fabs(dx) + fabs(dy), from, from - M_PI / 2); /* y goes down here */
-    tn_paint_stroke(f->paint);
+    double wide = *(const double *)of;
+    tn_paint_layer(paint, TN_LAYER_DOOR);
+    tn_paint_line_width(paint, tn_line_points(TN_STROKE_THIN));
+    tn_paint_move_to(paint, 0, 0);
+    tn_paint_line_to(paint, 0, -wide);
+    tn_paint_stroke(paint);
+    tn_paint_arc(paint, 0, 0, wide, -M_PI / 2, 0);
+    tn_paint_stroke(paint);
+}
+
+/* A door's leaf: a symbol by its width in millimetres. */
+static void paint_leaf(const tn_drawing_frame *f, const tn_mark *m)
+{
+    char name[40];
+    double du = m->u1 - m->u0, dv = m->v1 - m->v0, length = fabs(du) + fabs(dv), wide = length * f->scale;
+    double angle = fabs(dv) > fabs(du) ? (dv > 0 ? 0 : M_PI) : (du > 0 ? M_PI / 2 : -M_PI / 2);
+    snprintf(name, sizeof name, "DOOR-%.0f", length / 1e6);
+    const tn_drawn_symbol leaf = {name, draw_leaf, &wide};
+    tn_paint_symbol(f->paint, &leaf, place_u(f, m->u0), place_v(f, m->v0), angle, !m->right);
+}
+
+static void paint_span(const tn_drawing_frame *f, const tn_mark *m)
+{
+    const tn_dimension dimension = {.from = {place_u(f, m->u0), place_v(f, m->v0)},
+                                    .to = {place_u(f, m->u1), place_v(f, m->v1)},
+                                    .text = m->text,
+                                    .below = m->below};
+    tn_paint_face(f->paint, m->high * f->scale, false);
+    tn_paint_dimension(f->paint, &dimension);
 }
 
 static void paint_circle(const tn_drawing_frame *f, const tn_mark *m)
@@ -199,6 +249,7 @@ static void paint_line(const tn_drawing_frame *f, const tn_mark *m)
 static void paint_mark(const tn_drawing_frame *f, const tn_mark *m)
 {
     const mark_pen *pen = &pens[m->layer];
+    tn_paint_layer(f->paint, pen->layer);
     if (m->kind == TN_MARK_TEXT) {
         paint_text(f, m);
         return;
@@ -206,8 +257,10 @@ static void paint_mark(const tn_drawing_frame *f, const tn_mark *m)
     tn_paint_colour(f->paint, pen->grey, pen->grey, pen->grey);
     tn_paint_line_width(f->paint, tn_line_points(pen->weight));
     tn_paint_dash(f->paint, &pen->dash, pen->dash > 0, 0);
-    if (m->kind == TN_MARK_ARC)
-        paint_arc(f, m);
+    if (m->kind == TN_MARK_LEAF)
+        paint_leaf(f, m);
+    else if (m->kind == TN_MARK_SPAN)
+        paint_span(f, m);
     else if (m->kind == TN_MARK_CIRCLE)
         paint_circle(f, m);
     else
@@ -232,8 +285,9 @@ void tn_draw_projection(const tn_canvas *canvas, const tn_house_drawn *drawn, do
     if (drawn->view)
         tn_view_paint(canvas, drawn->view, &place);
     fill_cuts(&f, p);
-    if (p->layer_count > 0)
-        paint_layers(&f, drawn);
+    if (p->layer_count > 0 && tn_paint_covers(f.paint))
+        fill_layers(&f, drawn);
+    paint_joints(&f, p);
     for (int weight = TN_STROKE_WEIGHTS - 1; weight >= TN_STROKE_CUT; weight--)
         paint_lines(&f, p, (tn_line_weight)weight);
     for (size_t i = 0; i < p->marks.count; i++)

@@ -39,16 +39,16 @@ tn_status tn_house_view_take(const tn_solids *solids, const tn_aspect *aspect, c
     tn_display_list display = {0};
     tn_grouping grouping;
     drawn->form = house->form;
-    tn_status status = tn_house_projection_take(
-        house, solids, aspect, tn_house_grouping(house->form, aspect->kind, &grouping), &drawn->projection, error);
+    const tn_grouping *by = drawn->outlines ? NULL : tn_house_grouping(house->form, aspect->kind, &grouping);
+    tn_status status = tn_house_projection_take(house, solids, aspect, by, &drawn->projection, error);
     if (status == TN_OK)
         status = tn_house_layer_colours(house, &drawn->layer_colours, error);
     if (status == TN_OK) {
         tn_house_projection *p = &drawn->projection;
         tn_house_colour_groups(&p->mesh);
-        status = tn_lines_merge(p->lines, &p->line_count, false, error);
+        status = tn_lines_merge(p->lines, &p->line_count, drawn->outlines, error);
     }
-    bool filled = aspect->kind == TN_ASPECT_ELEVATION || aspect->kind == TN_ASPECT_AXONOMETRIC;
+    bool filled = !drawn->outlines && (aspect->kind == TN_ASPECT_ELEVATION || aspect->kind == TN_ASPECT_AXONOMETRIC);
     if (status == TN_OK && filled)
         status = tn_display_list_of_mesh(&drawn->projection.mesh, &display, error);
     if (status == TN_OK && filled) {
@@ -314,23 +314,36 @@ static tn_status choose_page(sheet *s, tn_error *error)
 
 /* ---- painting */
 
-static void paint_captions(const sheet *s, tn_paint *paint)
+/* *section: how many were drawn so far. */
+static void paint_caption(const sheet *s, tn_paint *paint, size_t i, size_t *section)
 {
-    size_t section = 0;
-    for (size_t i = 0; i < s->drawing->count; i++) {
-        const tn_house_drawn *d = &s->drawn[i];
-        double middle = d->x + wide(s, d) / 2;
-        char caption[sizeof d->projection.title + 16];
-        const char *title = d->projection.title;
-        char letter = is_section(&s->drawing->aspects[i]) && section < s->style.section_count
-                          ? s->sections[section++].letter
-                          : '\0';
-        if (letter)
-            snprintf(caption, sizeof caption, "%c-%c  %s", letter, letter, title);
-        tn_paint_colour(paint, 0, 0, 0);
-        tn_paint_face(paint, TN_LETTERING, true);
-        tn_type_line(paint, middle, d->y + CAPTION - 6, TN_ALIGN_CENTRE, letter ? caption : title);
-    }
+    const tn_house_drawn *d = &s->drawn[i];
+    double middle = d->x + wide(s, d) / 2;
+    char caption[sizeof d->projection.title + 16];
+    const char *title = d->projection.title;
+    char letter = is_section(&s->drawing->aspects[i]) && *section < s->style.section_count
+                      ? s->sections[(*section)++].letter
+                      : '\0';
+    if (letter)
+        snprintf(caption, sizeof caption, "%c-%c  %s", letter, letter, title);
+    tn_paint_layer(paint, TN_LAYER_TITLE);
+    tn_paint_colour(paint, 0, 0, 0);
+    tn_paint_face(paint, TN_LETTERING, true);
+    tn_type_line(paint, middle, d->y + CAPTION - 6, TN_ALIGN_CENTRE, letter ? caption : title);
+}
+
+/* A drawing to scale, with its caption. */
+static void paint_drawing(const sheet *s, const tn_canvas *canvas, size_t i, size_t *section)
+{
+    const tn_house_drawn *d = &s->drawn[i];
+    tn_paint *paint = tn_canvas_paint(canvas);
+    const tn_drawn_view view = {d->projection.title,  d->x,
+                                d->y - high(s, d),    wide(s, d),
+                                high(s, d) + CAPTION, {d->x - d->low[0] * s->points, d->y + d->low[1] * s->points}};
+    tn_paint_view_begin(paint, &view);
+    tn_draw_projection(canvas, d, s->points);
+    paint_caption(s, paint, i, section);
+    tn_paint_view_end(paint);
 }
 
 /* A bar of four feet or metres, in black and white, at the right of the foot. */
@@ -375,13 +388,14 @@ static void paint_foot(const sheet *s, tn_paint *paint)
 static void paint_all(const sheet *s, const tn_canvas *canvas)
 {
     tn_paint *paint = tn_canvas_paint(canvas);
+    size_t section = 0;
+    tn_paint_layer(paint, TN_LAYER_TITLE);
     if (s->drawing->title) {
         tn_paint_face(paint, 13, true);
         tn_type_fit(paint, MARGIN, MARGIN + 6, TN_ALIGN_LEFT, s->width - 2 * MARGIN, s->drawing->title);
     }
     for (size_t i = 0; i < s->drawing->count && !tn_canvas_stopped(canvas); i++)
-        tn_draw_projection(canvas, &s->drawn[i], s->points);
-    paint_captions(s, paint);
+        paint_drawing(s, canvas, i, &section);
     paint_foot(s, paint);
 }
 
@@ -397,12 +411,20 @@ tn_status tn_house_draw(const tn_house *house, const tn_solids *solids, const tn
     letter_sections(&s);
     tn_canvas *canvas = NULL;
     tn_status status = s.drawn ? TN_OK : tn_fail_memory(error);
-    for (size_t i = 0; status == TN_OK && i < drawing->count; i++)
+    for (size_t i = 0; status == TN_OK && i < drawing->count; i++) {
+        s.drawn[i].outlines = to->format == TN_CANVAS_DXF;
         status = tn_house_view_take(solids, &drawing->aspects[i], house, &s.drawn[i], to->watch, error);
+    }
     if (status == TN_OK)
         status = drawing->count == 1 ? choose_page(&s, error) : choose_paper(&s, error);
+    const tn_canvas_options options = {.width = s.width,
+                                       .height = s.height,
+                                       .dpi = to->dpi,
+                                       .title = drawing->title,
+                                       .scale = s.scale,
+                                       .feet = !s.metric};
     if (status == TN_OK)
-        status = tn_canvas_begin(to, s.width, s.height, drawing->title, &canvas, error);
+        status = tn_canvas_open(to, &options, &canvas, error);
     if (status == TN_OK) {
         paint_all(&s, canvas);
         status = tn_canvas_commit(canvas, error);

@@ -14,6 +14,7 @@
 #include "runtime/house/count/houses.h"
 #include "runtime/house/count/listing.h"
 #include "runtime/house/export/export.h"
+#include "runtime/house/picture/draw.h"
 #include "runtime/house/rank/rank.h"
 #include "runtime/house/rule/change.h"
 #include "runtime/house/schedule/describe.h"
@@ -350,12 +351,16 @@ static tn_status write_ifc(tn_error *error)
     return tn_house_write_ifc(&house, &solids, "a hut", sink, error);
 }
 
-static tn_status write_dxf(tn_error *error)
+static tn_status draw_dxf(tn_error *error)
 {
     static const tn_aspect aspects[] = {{.kind = TN_ASPECT_PLAN},
                                         {.kind = TN_ASPECT_SECTION_X, .at = INT64_C(1200000000)},
                                         {.kind = TN_ASPECT_ELEVATION, .side = TN_HOUSE_FRONT}};
-    return tn_house_write_dxf(&house, &solids, aspects, sizeof aspects / sizeof *aspects, sink, error);
+    const tn_house_drawing drawing = {.aspects = aspects, .count = sizeof aspects / sizeof *aspects, .title = "a hut"};
+    tn_picture picture = {.format = TN_CANVAS_DXF};
+    tn_status status = tn_house_draw(&house, &solids, &drawing, &picture, error);
+    free(picture.element);
+    return status;
 }
 
 static void test_failing(void **state)
@@ -370,7 +375,7 @@ static void test_failing(void **state)
     expect_robust(tile_fails);
     expect_robust(find_bare);
     expect_robust(write_ifc);
-    expect_robust(write_dxf);
+    expect_robust(draw_dxf);
 }
 
 int main(void)

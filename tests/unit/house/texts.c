@@ -10,7 +10,6 @@
 #include <cmocka.h>
 
 #include "runtime/base/utf8.h"
-#include "runtime/house/export/dxf_file.h"
 #include "runtime/house/export/step.h"
 
 /* UTF-8 of one character. */
@@ -72,37 +71,6 @@ static void expect_step(const char *text)
     free(whole.data);
 }
 
-/* What a DXF text says, of releases before 2007. */
-static void expect_dxf(const char *text)
-{
-    char *written, said[4096] = "";
-    size_t size, at = 0;
-    uint32_t high = 0;
-    FILE *out = open_memstream(&written, &size);
-    tn_dxf_text(out, text);
-    fclose(out);
-    for (const char *c = written; *c;) {
-        assert_in_range(*c, ' ', '~');
-        if (*c != '\\') {
-            said[at++] = *c;
-            c += *c == '^' ? 2 : 1;
-            continue;
-        }
-        assert_int_equal(strncmp(c, "\\U+", 3), 0);
-        uint32_t unit = digits(c + 3, 4);
-        c += 7;
-        if (unit >= 0xD800 && unit < 0xDC00)
-            high = unit;
-        else if (unit >= 0xDC00 && unit < 0xE000)
-            at += spell(0x10000 + ((high & 0x3FF) << 10 | (unit & 0x3FF)), said + at);
-        else
-            at += spell(unit, said + at);
-    }
-    said[at] = '\0';
-    assert_string_equal(said, text);
-    free(written);
-}
-
 static void test_every_character(void **state)
 {
     (void)state;
@@ -112,10 +80,8 @@ static void test_every_character(void **state)
             continue;
         size_t size = spell(c, text);
         expect_step(text);
-        expect_dxf(text);
         memcpy(text + size, "-\xC3\xA9", 4); /* after and before others */
         expect_step(text);
-        expect_dxf(text);
     }
 }
 
@@ -127,7 +93,6 @@ static void test_quotes(void **state)
     assert_string_equal(tn_stepfile_text("k\xC3\xBC\xC3\xB6 \xF0\x90\xA4\x80\xC3\xBC").text,
                         "k\\X2\\00FC00F6\\X0\\ \\X4\\00010900\\X0\\\\X2\\00FC\\X0\\");
     assert_string_equal(tn_stepfile_text("\xFF'").text, "\\X2\\FFFD\\X0\\''"); /* no UTF-8 */
-    expect_dxf("a^b \\U+0041 %");
 }
 
 /* A name that is too long ends behind a whole character, outside of a run. */
