@@ -66,7 +66,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token TRAY "`tray`" ANY "`any`" AND "`and`" OR "`or`" NOT "`not`"
 %token NEIGHBOUR "`neighbour`" SYMMETRIC "`symmetric`" QUANTITY "`quantity`" SUM "`sum`" MANY "`many`"
 %token OCCURRENCES "`occurrences`" OPTIONAL "`optional`" DISTANCE "`distance`" BEGINNING "`beginning`" END "`end`"
-%token IN "`in`" MOD "`mod`" ROOM "`room`" TOUCH "`touch`" APART "`apart`" THROUGH "`through`"
+%token IN "`in`" MOD "`mod`" ROOM "`room`" TOUCH "`touch`" APART "`apart`" THROUGH "`through`" WALK "`walk`" EXITS "`exits`"
 %token <word> DECIMAL "a decimal number"
 %token MEASURE "`measure`" LET "`let`" NUMBER_FIELD "`number`" WHERE "`where`" MATCHES "`matches`" SOME "`some`" EVERY "`every`"
 %token IMPLIES "`implies`" GAP "`gap`" WITHIN "`within`" LEAST "`least`" BEFORE "`before`" AFTER "`after`" PLAN "`plan`" MIN "`min`" MAX "`max`" VALUE "`value`"
@@ -100,7 +100,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <range> range
 %type <op> comparison
 %type <region> region
-%type <extreme> extreme
+%type <extreme> extreme walk
 %type <cond> condition cond_ors cond_and cond_ands cond_not cond_atom compare
 %type <form> form_head
 %type <form_clause> thickness relation price
@@ -110,7 +110,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <list> form_clauses layers shapes arguments opening_parts tile_parts kinds or_names reaches section_items section_alternatives
 %type <word> size outside_side side number going turn winders section
 %type <expr> material_where
-%type <expr> cells cell_ors cell_and cell_ands cell_not sections section_ors section_and section_ands section_not
+%type <expr> walk_end cells cell_ors cell_and cell_ands cell_not sections section_ors section_and section_ands section_not
 %type <expr> expression implied qualified disjunction ors and ands not compared comparable nearness additive term signed primary pattern_tray head_number
 %type <expr> part call_arg tray_sum tray_term tray_signed tray_atom
 %type <list> params number_cases pattern call_args
@@ -494,6 +494,13 @@ primary
                                                 { $$ = tn_ast_meeting(parse, TN_EXPR_APART, @$, tn_ast_append(tn_ast_append(tn_ast_one($3), $6), $9), $10); }
     | APART OPEN cells COMMA FROM cells COMMA BY or_names COMMA THROUGH cells CLOSE
                                                 { $$ = tn_ast_meeting(parse, TN_EXPR_APART, @$, tn_ast_append(tn_ast_append(tn_ast_one($3), $6), $12), $9); }
+    | walk OPEN cells COMMA TO walk_end walk_by CLOSE
+                                                { $$ = tn_ast_walk(parse, @$, $1, $3, $6, NULL, $7); }
+    | walk OPEN cells COMMA TO walk_end COMMA THROUGH cells walk_by CLOSE
+                                                { $$ = tn_ast_walk(parse, @$, $1, $3, $6, $9, $10); }
+    | walk OPEN cells COMMA TO walk_end COMMA BY or_names COMMA THROUGH cells CLOSE
+                                                { $$ = tn_ast_walk(parse, @$, $1, $3, $6, $12, $9); }
+    | EXITS OPEN cells CLOSE                    { $$ = tn_ast_of(parse, TN_EXPR_EXITS, @$, tn_ast_one($3)); }
     | DISTANCE OPEN FROM expression COMMA TO expression COMMA BY expression CLOSE
                                                 { $$ = tn_ast_distance(parse, @$, $4, $7, $10); }
     ;
@@ -501,6 +508,17 @@ primary
 extreme
     : MAX                                       { $$ = TN_EXTREME_MOST; }
     | MIN                                       { $$ = TN_EXTREME_LEAST; }
+    ;
+
+walk
+    : WALK                                      { $$ = TN_EXTREME_MOST; }
+    | LEAST WALK                                { $$ = TN_EXTREME_LEAST; }
+    ;
+
+/* A word: the outside. */
+walk_end
+    : cells
+    | NAME                                      { $$ = tn_ast_figure(parse, @$, $1, NULL); }
     ;
 
 /* Where a count or a sum looks, of the stretch that a `where` is about. */

@@ -314,7 +314,7 @@ static void complete_in_call(lsp_cursor *c, size_t bracket)
     }
     if (cursor_is(c, bracket - 1, "distance"))
         offer_words(c, TN_AT(DISTANCE));
-    if (cursor_is(c, bracket - 1, "touch") || cursor_is(c, bracket - 1, "apart"))
+    if (cursor_is(c, bracket - 1, "touch") || cursor_is(c, bracket - 1, "apart") || cursor_is(c, bracket - 1, "walk"))
         offer_words(c, TN_AT(MEETING));
     complete_expression(c);
 }

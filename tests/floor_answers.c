@@ -1,12 +1,13 @@
 /* Answers what floor_oracle.py asks of cells. A line of the input is numbers: the way, the clear rectangle, then
  * obstacles, keeps, passages, leaves, landings and what is in the air, each list after its length. A passage is its
  * side, its kind, from, to. A line of the output: the parts; those that each passage and landing touches; keeps;
- * leaves; ways; fits. */
+ * leaves; ways; fits; how long the shortest ways are from the middle of each passage and landing to that of each. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "runtime/house/floor/floor.h"
+#include "runtime/house/floor/paths.h"
 
 enum { MOST = 64 };
 
@@ -75,7 +76,34 @@ static void write_answer(const tn_floor *floor, const tn_floor_answer *answer)
     write_flags(answer->keeps, floor->keep_count);
     printf(";");
     write_flags(answer->leaves, floor->leaf_count);
-    printf(";%d;%d\n", answer->ways, answer->fits);
+    printf(";%d;%d;", answer->ways, answer->fits);
+}
+
+/* False: out of memory, or what is found twice is not the same. */
+static bool write_paths(const tn_floor *floor)
+{
+    tn_point ends[2 * MOST];
+    tn_floor_paths paths;
+    tn_error error;
+    size_t count = 0;
+    for (size_t i = 0; i < floor->passage_count; i++) {
+        tn_rectangle at = tn_floor_points(floor, &floor->passages[i]);
+        ends[count++] = tn_rectangle_middle(&at);
+    }
+    for (size_t i = 0; i < floor->landing_count; i++)
+        ends[count++] = tn_rectangle_middle(&floor->landings[i]);
+    bool ok = tn_floor_paths_find(floor, ends, count, &paths, &error) == TN_OK;
+    for (size_t i = 0; ok && i < count * count; i++) {
+        int64_t length = tn_floor_path(&paths, i / count, i % count);
+        ok = length == tn_floor_path(&paths, i % count, i / count);
+        if (length == TN_NO_PATH)
+            printf("- ");
+        else
+            printf("%" PRId64 " ", length);
+    }
+    printf("\n");
+    tn_floor_paths_clear(&paths);
+    return ok;
 }
 
 int main(void)
@@ -105,6 +133,8 @@ int main(void)
             fits != answer.fits || (answer.fault == TN_FLOOR_FITS) != fits)
             return 1;
         write_answer(&floor, &answer);
+        if (!write_paths(&floor))
+            return 1;
         tn_floor_answer_clear(&answer);
     }
     return 0;

@@ -159,8 +159,8 @@ def run(*words, lines=None):
     return done.stdout
 
 
-def houses_of(path):
-    return run("enumerate", path, "--library", "all", "--limit", str(HOUSES + 1)).splitlines()
+def houses_of(path, *words):
+    return run("enumerate", path, "--library", "all", "--limit", str(HOUSES + 1), *words).splitlines()
 
 
 def tell(form, model, house):
@@ -243,19 +243,25 @@ def check(seed, scratch):
     return len(all_houses), None, len(wanted), flights
 
 
-tartan, model, first, count = sys.argv[1], load(sys.argv[2]), int(sys.argv[3]), int(sys.argv[4])
-seen, kept, climbed, forms, bad, seed = 0, 0, 0, 0, 0, first
-with tempfile.TemporaryDirectory() as scratch:
-    while forms < count:
-        found = check(seed, scratch)
-        seed += 1
-        if found is None:
-            continue
-        forms, seen = forms + 1, seen + found[0]
-        if found[1]:
-            bad += 1
-            print(found[1])
-        else:
-            kept, climbed = kept + found[2], climbed + found[3]
-print(seen, "houses of", forms, "forms,", kept, "livable,", climbed, "flights,", bad, "differ")
-sys.exit(bad > 0 or not 0 < kept < seen or climbed == 0)
+def main():
+    global tartan, model
+    tartan, model, first, count = sys.argv[1], load(sys.argv[2]), int(sys.argv[3]), int(sys.argv[4])
+    seen, kept, climbed, forms, bad, seed = 0, 0, 0, 0, 0, first
+    with tempfile.TemporaryDirectory() as scratch:
+        while forms < count:
+            found = check(seed, scratch)
+            seed += 1
+            if found is None:
+                continue
+            forms, seen = forms + 1, seen + found[0]
+            if found[1]:
+                bad += 1
+                print(found[1])
+            else:
+                kept, climbed = kept + found[2], climbed + found[3]
+    print(seen, "houses of", forms, "forms,", kept, "livable,", climbed, "flights,", bad, "differ")
+    sys.exit(bad > 0 or not 0 < kept < seen or climbed == 0)
+
+
+if __name__ == "__main__":
+    main()

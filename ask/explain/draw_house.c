@@ -84,7 +84,7 @@ static tn_status add_line(drawing *d, tn_buffer *line, tn_error *error)
 static tn_status light(drawing *d, uint32_t storey, const tn_rectangle *at, tn_lit_tone tone, tn_error *error)
 {
     drawn_reason *reason = &d->reasons[d->count - 1];
-    const tn_lit lit = {storey, *at, reason->good ? TN_LIT_GOOD : tone};
+    const tn_lit lit = {storey, *at, reason->good && tone != TN_LIT_WALK ? TN_LIT_GOOD : tone};
     for (size_t i = 0; i < reason->lit_count; i++) {
         tn_lit *known = &reason->lits[i];
         if (known->storey != storey || memcmp(&known->at, at, sizeof *at) != 0)
@@ -132,6 +132,18 @@ static tn_status light_walk(drawing *d, const tn_witness *found, tn_error *error
     return status == TN_OK ? light_cell(d, found->first, TN_LIT_FAULT, error) : status;
 }
 
+/* The cell, and the walk from it to where it leads. */
+static tn_status light_walked(drawing *d, const tn_witness *found, tn_error *error)
+{
+    tn_status status = light_cell(d, found->first, TN_LIT_FAULT, error);
+    for (size_t i = 0; status == TN_OK && i < found->line_count; i++) {
+        const tn_walk_line *line = &found->lines[i];
+        const tn_rectangle at = {line->from.x, line->to.x, line->from.y, line->to.y};
+        status = light(d, line->storey, &at, TN_LIT_WALK, error);
+    }
+    return status;
+}
+
 static tn_status see_found(void *context, const tn_witness *found, tn_error *error)
 {
     drawing *d = context;
@@ -145,6 +157,13 @@ static tn_status see_found(void *context, const tn_witness *found, tn_error *err
         return light_face(d, found->face, error);
     case TN_OP_APART:
         return light_walk(d, found, error);
+    case TN_OP_HOUSE_BELOW:
+    case TN_OP_HOUSE_ZERO:
+    case TN_OP_HOUSE_ABOVE:
+    case TN_OP_HOUSE_NOT_BELOW:
+    case TN_OP_HOUSE_NOT_ZERO:
+    case TN_OP_HOUSE_NOT_ABOVE:
+        return light_walked(d, found, error);
     default:
         return light_cell(d, found->first, TN_LIT_FAULT, error);
     }

@@ -234,6 +234,22 @@ static void walk_text(const tn_house *house, const tn_witness *found, char *text
         snprintf(text + used, size - used, "leads nowhere");
 }
 
+/* "2.body.upper, from where it is 27.3m", "... no walk leads", "... 1 way leads outside" */
+static void walked_text(const tn_house *house, const tn_witness *found, char *text, size_t size)
+{
+    char cell[96], length[64] = "";
+    tn_cell_text(house, found->first, cell, sizeof cell);
+    if (found->term->kind == TN_HOUSE_EXITS) {
+        snprintf(text, size, "%s, from where %lld %s outside", cell, (long long)found->number,
+                 found->number == 1 ? "way leads" : "ways lead");
+    } else if (found->number == TN_NO_PATH) {
+        snprintf(text, size, "%s, from where no walk leads there", cell);
+    } else {
+        tn_way_length_text(house, found->number, length);
+        snprintf(text, size, "%s, from where it is %s", cell, length);
+    }
+}
+
 static void found_text(const tn_house *house, const tn_witness *found, char *text, size_t size)
 {
     switch (found->opcode) {
@@ -248,6 +264,14 @@ static void found_text(const tn_house *house, const tn_witness *found, char *tex
         return;
     case TN_OP_APART:
         walk_text(house, found, text, size);
+        return;
+    case TN_OP_HOUSE_BELOW:
+    case TN_OP_HOUSE_ZERO:
+    case TN_OP_HOUSE_ABOVE:
+    case TN_OP_HOUSE_NOT_BELOW:
+    case TN_OP_HOUSE_NOT_ZERO:
+    case TN_OP_HOUSE_NOT_ABOVE:
+        walked_text(house, found, text, size);
         return;
     default:
         tn_cell_text(house, found->first, text, size);
@@ -265,6 +289,14 @@ static bool append_amount(tn_amount_unit unit, mpq_t value, tn_buffer *out)
     return tn_amount_write_about(unit, value, out);
 }
 
+/* Or what it is instead of a number. */
+static bool append_worth(tn_amount_unit unit, tn_worth worth, mpq_t value, tn_buffer *out)
+{
+    static const char *const others[] = {NULL, "no number", "less than any number, as there are no such cells",
+                                         "more than any number, as there are no such cells"};
+    return worth == TN_HAS_WORTH ? append_amount(unit, value, out) : tn_buffer_printf(out, "%s", others[worth]);
+}
+
 static tn_status append_found(answering *a, const char *text, tn_error *error)
 {
     tn_asked_of_house *questions = a->why->items;
@@ -280,16 +312,17 @@ static tn_status append_numbers(answering *a, uint32_t offset, tn_error *error)
     tn_amount_unit unit = tn_amount_unit_of(a->e->judge.schema, sum->power);
     tn_buffer left = {0}, right = {0}, said = {0};
     bool costs = false;
+    tn_worth worth = TN_HAS_WORTH;
     mpq_t value, constant;
     mpq_inits(value, constant, NULL);
-    tn_status status = tn_house_rules_sum(a->e->judge.rules, (uint32_t)op.first, value, &costs, error);
+    tn_status status = tn_house_rules_sum(a->e->judge.rules, (uint32_t)op.first, value, &worth, &costs, error);
     mpq_set_str(constant, tn_text(module, sum->constant), 10);
     mpq_sub(value, value, constant);
     mpq_neg(constant, constant);
     if (costs)
         tn_round_to_cent(value);
     bool alone = mpq_sgn(constant) == 0;
-    if (status == TN_OK && (!append_amount(unit, value, &left) || !append_amount(unit, constant, &right)))
+    if (status == TN_OK && (!append_worth(unit, worth, value, &left) || !append_amount(unit, constant, &right)))
         status = tn_fail_memory(error);
     if (status == TN_OK)
         tn_buffer_printf(&said, "%s%s%s%s", alone ? "the left side less the right side is " : "", left.data,

@@ -58,6 +58,9 @@ tn_status tn_numbered_open_on(tn_numbered *n, tn_session *session, const tn_libr
 tn_status tn_say_no_houses(tn_session *session, const char *name);
 void tn_numbered_close(tn_numbered *n);
 
+/* Does a clause ask for walks or ways out? Then houses are counted and numbered on one plan only. */
+bool tn_numbered_walks(const tn_numbered *n);
+
 /* The same form with other clauses, in another copy of its module, or on other plans with the same trays; all are
  * borrowed. Close it in any case. */
 void tn_numbered_other(const tn_numbered *n, const tn_module *module, const tn_house_library_record *record,
@@ -139,7 +142,7 @@ bool tn_numbered_few(const tn_numbered *n);
 /* A note where fewer houses were found than were wanted. */
 void tn_numbered_say_few(const tn_numbered *n, bool on_plan, uint64_t found, uint64_t wanted);
 
-/* Can one go through them at all (TN_HOUSE_PLANS_MAX)? */
+/* Can one go through them at all (TN_HOUSE_PLANS_MAX)? Not by clauses that ask for walks. */
 bool tn_numbered_countable(const tn_numbered *n);
 
 /* The plan of a rank, written in so many digits; trays: room for the longest. */

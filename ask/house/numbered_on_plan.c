@@ -95,7 +95,7 @@ static tn_status count_all_if_quick(tn_numbered *n, tn_error *error)
 {
     enum { PLANS = 8, STATES = 100000 };
     const tn_houses_what all = {0};
-    if (n->all || n->plans_alone++ != PLANS)
+    if (n->all || n->plans_alone++ != PLANS || tn_numbered_walks(n))
         return TN_OK;
     uint32_t states = n->max_states > 0 && n->max_states < STATES ? n->max_states : STATES;
     tn_status status = tn_houses_of(&n->form, n->record, n->plans, &all, states, &n->all, error);

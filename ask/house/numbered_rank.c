@@ -67,9 +67,15 @@ bool tn_numbered_few(const tn_numbered *n)
     return at_most(n, TN_HOUSE_PLANS_FEW);
 }
 
+bool tn_numbered_walks(const tn_numbered *n)
+{
+    tn_error error;
+    return tn_houses_check_walks(&n->form, n->record, NULL, &error) != TN_OK;
+}
+
 bool tn_numbered_countable(const tn_numbered *n)
 {
-    return at_most(n, TN_HOUSE_PLANS_MAX);
+    return at_most(n, TN_HOUSE_PLANS_MAX) && !tn_numbered_walks(n);
 }
 
 /* ---- names */

@@ -453,7 +453,9 @@ static tn_status list_from(tn_numbered *n, house_list *list, tn_error *error)
 {
     mpz_t plan;
     mpz_init(plan);
-    tn_status status = find_plan(n, list, plan, error);
+    tn_status status = tn_houses_check_walks(&n->form, n->record, NULL, error);
+    if (status == TN_OK)
+        status = find_plan(n, list, plan, error);
     if (status == TN_OK)
         status = tn_numbered_plans_from(n, plan, list_plan, list, error);
     mpz_clear(plan);

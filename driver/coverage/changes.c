@@ -207,6 +207,8 @@ static bool is_rule(const tn_ast_expr *expr)
     case TN_EXPR_VALUES:
     case TN_EXPR_EXTREME:
     case TN_EXPR_GAP:
+    case TN_EXPR_WALK:
+    case TN_EXPR_EXITS:
     case TN_EXPR_PLUS:
     case TN_EXPR_MINUS:
     case TN_EXPR_TIMES:

@@ -16,7 +16,7 @@ typedef struct looking {
     tn_finder finder;
     const tn_module *module;
     const tn_house_library_record *record;
-    const tn_house_clause_record *clauses; /* of the library */
+    const tn_house_clause_record *clauses; /* of the library: the counter's */
     uint32_t count;
     tn_house_counter counter;
     tn_house_clause_record *some; /* [count + 2]: those that are counted by */
@@ -89,6 +89,8 @@ static tn_status leave(looking *l, tn_status status, const tn_error *why, bool *
             *error = *why;
         return status;
     }
+    if (why->code == E_WALKS_OF_ALL) /* it is no matter of how many states there may be */
+        return TN_OK;
     if (!l->limited)
         l->limit = *why;
     l->limited = true;
@@ -514,8 +516,6 @@ static tn_status analyse(tn_opened *opened, uint32_t library, uint32_t max_state
     looking l = {.finder = {opened, "house", "houses", among},
                  .module = module,
                  .record = record,
-                 .clauses = module->HOUSE_CLAUSE_records + record->clause_first,
-                 .count = record->clause_count,
                  .rules = is_first(module, library),
                  .some = malloc(((size_t)record->clause_count + 2) * sizeof *l.some)};
     mpz_inits(l.kept, l.houses, NULL);
@@ -524,6 +524,8 @@ static tn_status analyse(tn_opened *opened, uint32_t library, uint32_t max_state
         l.some ? tn_house_counter_open(module, library, 0, max_states ? max_states : TN_HOUSE_ANALYSIS_STATES,
                                        &l.counter, error)
                : tn_fail_memory(error);
+    l.clauses = l.counter.clauses;
+    l.count = l.counter.clause_count;
     if (status == TN_OK)
         status = look_at(&l, error);
     if (status == TN_OK)

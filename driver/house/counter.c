@@ -5,6 +5,22 @@
 
 #include "runtime/house/house.h"
 #include "runtime/house/rank/rank.h"
+#include "runtime/house/rule/stages.h"
+
+static tn_status take_clauses(tn_house_counter *c, tn_error *error)
+{
+    const tn_house_clause_record *own = c->module->HOUSE_CLAUSE_records + c->library->clause_first;
+    bool *walks = calloc((size_t)c->library->clause_count + 1, sizeof *walks);
+    c->clauses = malloc(((size_t)c->library->clause_count + 1) * sizeof *c->clauses);
+    tn_status status = walks && c->clauses
+                           ? tn_clauses_walking(&c->form, c->library, walks, error)
+                           : tn_fail_memory(error);
+    for (uint32_t i = 0; status == TN_OK && i < c->library->clause_count; i++)
+        if (!walks[i])
+            c->clauses[c->clause_count++] = own[i];
+    free(walks);
+    return status;
+}
 
 tn_status tn_house_counter_open(const tn_module *module, uint32_t library, uint32_t plan_states, uint32_t max_states,
                                 tn_house_counter *c, tn_error *error)
@@ -18,11 +34,13 @@ tn_status tn_house_counter_open(const tn_module *module, uint32_t library, uint3
     if (status != TN_OK)
         return status;
     tn_form_ready(module, c->library->form, c->schema, &c->form);
-    return tn_library_new(c->schema, c->library->plans, &options, &c->plans, error);
+    status = take_clauses(c, error);
+    return status == TN_OK ? tn_library_new(c->schema, c->library->plans, &options, &c->plans, error) : status;
 }
 
 void tn_house_counter_close(tn_house_counter *c)
 {
+    free(c->clauses);
     tn_library_free(c->plans);
     tn_schema_free(c->schema);
     *c = (tn_house_counter){0};
@@ -51,7 +69,7 @@ static tn_status count(tn_house_counter *c, const tn_house_clause_record *clause
     if (status == TN_OK) {
         uint64_t states = tn_houses_states(*houses);
         c->states_left -= states < c->states_left ? states : c->states_left;
-    } else if (status == TN_LIMIT) {
+    } else if (status == TN_LIMIT && (!error || error->code != E_WALKS_OF_ALL)) {
         c->states_left = 0; /* other counts of these clauses would take as many */
         tn_error_help(error, "--max-states N allows more; a library on plans of fewer trays takes fewer");
     }
@@ -119,13 +137,12 @@ tn_status tn_house_counter_first(tn_house_counter *c, const tn_house_clause_reco
 
 tn_status tn_house_counter_values(tn_house_counter *c, mpz_t *houses, bool *stands, tn_error *error)
 {
-    const tn_house_clause_record *own = c->module->HOUSE_CLAUSE_records + c->library->clause_first;
     tn_house section = {.form = &c->form};
     tn_other_clauses other;
     tn_houses *counted;
     mpz_t some;
     mpz_init(some);
-    tn_status status = count(c, own, c->library->clause_count, NULL, &other, &counted, error);
+    tn_status status = count(c, c->clauses, c->clause_count, NULL, &other, &counted, error);
     for (bool more = status == TN_OK; more; more = tn_form_next_section(&c->form, section.shapes)) {
         if (!tn_house_section_stands(&section))
             continue;

@@ -18,6 +18,8 @@ typedef struct tn_house_counter {
     tn_schema *schema;
     tn_house_form form;
     tn_library *plans;
+    tn_house_clause_record *clauses; /* of the library, but for those that ask for walks: it has no more houses */
+    uint32_t clause_count;
     uint32_t max_states;  /* of one count */
     uint64_t states_left; /* of all counts */
 } tn_house_counter;

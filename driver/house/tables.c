@@ -495,6 +495,7 @@ static tn_status put_measures(const adding *a, const mpq_t price, tn_error *erro
 {
     tn_house_tables *t = a->t;
     const tn_module *module = t->form->module;
+    tn_worth worth = TN_HAS_WORTH;
     mpq_t value, cost;
     mpq_inits(value, cost, NULL);
     tn_status status = tn_house_rules_start(t->rules, a->house, error);
@@ -502,8 +503,10 @@ static tn_status put_measures(const adding *a, const mpq_t price, tn_error *erro
         tn_house_rules_price(t->rules, price);
     for (size_t i = 0; status == TN_OK && i < t->measure_count; i++) {
         tn_house_measured of = tn_house_measured_of(module, t->measures[i]);
-        status = tn_house_rules_measure(t->rules, of, value, cost, error);
-        if (status != TN_OK)
+        status = tn_house_rules_measure(t->rules, of, value, cost, &worth, error);
+        if (status == TN_OK && worth != TN_HAS_WORTH)
+            put_nothing(t);
+        if (status != TN_OK || worth != TN_HAS_WORTH)
             continue;
         mpq_mul(cost, cost, price);
         mpq_add(value, value, cost);

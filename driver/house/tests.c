@@ -14,6 +14,7 @@ typedef struct outcome {
     tn_house_clause *clauses; /* of a library */
     size_t count;
     mpq_t value, wanted; /* of a measure, where it is one */
+    tn_worth worth;
 } outcome;
 
 /* What adds up costs is compared to the cent. */
@@ -26,7 +27,7 @@ static tn_status measure_case(tn_house_judge *judge, const tn_test_block *block,
     mpq_set_str(out->wanted, test->value, 10);
     tn_status status = tn_house_rules_start(judge->rules, house, error);
     if (status == TN_OK)
-        status = tn_house_rules_measure(judge->rules, measure, out->value, parts, error);
+        status = tn_house_rules_measure(judge->rules, measure, out->value, parts, &out->worth, error);
     if (status == TN_OK && mpq_sgn(parts) != 0)
         status = tn_house_rules_cost(judge->rules, cost, error);
     mpq_mul(cost, cost, parts);
@@ -67,7 +68,7 @@ static bool is_reason(const outcome *out, const char *name)
 static bool comes_out(const tn_test_case *test, const outcome *out)
 {
     if (test->expectation == TN_EXPECT_VALUE)
-        return mpq_equal(out->value, out->wanted);
+        return out->worth == TN_HAS_WORTH && mpq_equal(out->value, out->wanted);
     if (test->expectation == TN_EXPECT_MATCH || test->expectation == TN_EXPECT_REJECT)
         return out->matched == (test->expectation == TN_EXPECT_MATCH);
     bool good = out->dropped == (test->expectation == TN_EXPECT_DROP);
@@ -94,9 +95,10 @@ static tn_diagnostic *report_value(tn_opened *opened, const tn_house_judge *judg
     tn_buffer is = {0}, should = {0};
     tn_amount_write(unit, out->value, &is);
     tn_amount_write(unit, out->wanted, &should);
+    const char *text = out->worth == TN_HAS_WORTH ? is.data : "no number";
     tn_diagnostic *d =
         tn_report(&opened->compilation.diagnostics, E_TEST_FAILED, test->span, "`%s` is %s for this house, not %s",
-                  block->subject, is.data ? is.data : "?", should.data ? should.data : "?");
+                  block->subject, text ? text : "?", should.data ? should.data : "?");
     free(is.data);
     free(should.data);
     return d;

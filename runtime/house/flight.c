@@ -258,6 +258,7 @@ void tn_flight_clear(tn_flight *flight)
 {
     free(flight->holes);
     free(flight->drops);
+    free(flight->low);
     free(flight->treads);
     free(flight->wedges);
     *flight = (tn_flight){0};

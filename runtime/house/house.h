@@ -365,13 +365,17 @@ tn_box tn_wedge_box(const tn_wedge *wedge);
 /* A flight of stairs as it stands, from one floor to the next. face: it is in; holes: what it takes of the floor above.
  * treads: by height, with landings among them; wedges: those that are no boxes. path: how one walks up it. If the form
  * asks for ways: foot, head: where one stands before it and behind it; last: where the last steps are, before the head;
- * drops: what of its holes one may fall far into. Owns its arrays: clear it in any case. */
+ * drops: what of its holes one may fall far into; low: what of it one cannot walk under; length: how far one walks from
+ * the middle of the foot to that of the head. Owns its arrays: clear it in any case. */
 typedef struct tn_flight {
     uint32_t face;
     tn_rectangle *holes;
     size_t hole_count;
     tn_rectangle *drops;
     size_t drop_count;
+    tn_rectangle *low;
+    size_t low_count;
+    int64_t length;
     tn_rectangle foot, head, last;
     tn_box *treads; /* z from the lower floor */
     size_t tread_count;

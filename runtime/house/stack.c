@@ -20,9 +20,10 @@ typedef struct tn_step_box {
     tn_winding winding; /* of wedges */
 } tn_step_box;
 
-/* deep: along u; wide: along v. foot, head: where one stands before the flight and behind it. */
+/* deep: along u; wide: along v. going: along its middle, with half of the place before it and of that behind it. foot,
+ * head: where one stands before the flight and behind it. */
 typedef struct tn_flight_shape {
-    int64_t risers, deep, wide;
+    int64_t risers, deep, wide, going;
     tn_step_box *boxes;
     size_t count;
     tn_rectangle foot, head;
@@ -60,6 +61,7 @@ static void shape_straight(tn_flight_shape *s, int64_t w, int64_t g)
         add_box(s, i * g, (i + 1) * g, 0, w);
     s->deep = (s->risers - 1) * g;
     s->wide = w;
+    s->going = s->deep + w;
     s->head = (tn_rectangle){s->deep, s->deep + w, 0, w};
     add_path(s, s->deep, w / 2);
 }
@@ -81,6 +83,7 @@ static void shape_half(tn_flight_shape *s, const tn_opening_record *flight)
         add_box(s, end - i * g, end - (i - 1) * g, w, 2 * w);
     s->deep = end + w;
     s->wide = 2 * w;
+    s->going = treads * g + 3 * w;
     s->head = (tn_rectangle){end - back * g - w, end - back * g, w, 2 * w};
     add_path(s, end + w / 2, w / 2);
     add_path(s, end + w / 2, w + w / 2);
@@ -99,6 +102,7 @@ static void shape_quarter(tn_flight_shape *s, const tn_opening_record *flight, i
         add_box(s, end, end + w, w + i * g, w + (i + 1) * g);
     s->deep = end + w;
     s->wide = w + on * g;
+    s->going = treads * g + 2 * w;
     s->head = (tn_rectangle){end, end + w, s->wide, s->wide + w};
     add_path(s, end + w / 2, w / 2);
     add_path(s, end + w / 2, s->wide);
@@ -111,6 +115,7 @@ static void shape_spiral(tn_flight_shape *s, int64_t w)
     int64_t landing = w / 2, near = w / 4, far = w - near;
     add_treads(s, (tn_rectangle){0, w, 0, w}, s->risers - 1, TN_WINDS_ROUND);
     s->deep = s->wide = w;
+    s->going = 3 * w;
     s->foot = (tn_rectangle){-landing, 0, 0, landing};
     s->head = (tn_rectangle){-landing, 0, w - landing, w};
     s->path_count = 0;
@@ -361,8 +366,7 @@ static bool is_free(const tn_rectangle *r, const tn_rectangles *obstacles)
     return true;
 }
 
-/* Does a landing reach over an open side, on the floors of both cells? */
-static bool reaches_over(const tn_cell_floor *floor, const tn_open_side *side, const tn_rectangle *landing)
+bool tn_landing_reaches_over(const tn_cell_floor *floor, const tn_open_side *side, const tn_rectangle *landing)
 {
     const tn_rectangle *a = &floor->clear, *b = &side->floor;
     bool in_x = runs_in_x(floor->passages[side->passage].side);
@@ -380,7 +384,7 @@ static tn_status add_landing(const tn_cell_floor *floor, tn_rectangle landing, t
     if (*stands && tn_rectangle_within(&landing, &floor->clear))
         return tn_rectangles_add(&to->landings, landing, error);
     for (size_t i = 0; *stands && i < floor->open_count; i++)
-        if (reaches_over(floor, &floor->open_sides[i], &landing)) {
+        if (tn_landing_reaches_over(floor, &floor->open_sides[i], &landing)) {
             to->passages[floor->open_sides[i].passage].kind = TN_PASSAGE_MET;
             return TN_OK;
         }
@@ -600,7 +604,10 @@ static tn_status stand(tn_stack *k, size_t flight, tn_flight *to, tn_error *erro
     to->foot = put(&s, p, &in, s.foot);
     to->head = put(&s, p, &in, s.head);
     to->last = put(&s, p, &in, s.boxes[s.count - 1].at);
-    tn_status status = take_steps(k, flight, &s, STEPS_IN_HOLE, &to->holes, &to->hole_count, error);
+    to->length = s.going;
+    tn_status status = take_steps(k, flight, &s, STEPS_IN_WAY, &to->low, &to->low_count, error);
+    if (status == TN_OK)
+        status = take_steps(k, flight, &s, STEPS_IN_HOLE, &to->holes, &to->hole_count, error);
     return status == TN_OK ? take_steps(k, flight, &s, STEPS_BELOW_DROP, &to->drops, &to->drop_count, error) : status;
 }
 

@@ -363,8 +363,7 @@ tn_status tn_cell_stop(const tn_house *house, uint32_t cell, tn_way_stop *stop, 
     return status;
 }
 
-/* Lengths are shown to the next eighth of an inch, or millimetre. */
-static void length_text(const tn_house *house, int64_t length, char text[64])
+void tn_way_length_text(const tn_house *house, int64_t length, char text[64])
 {
     tn_length_style style = tn_house_length_style(house);
     int64_t step = style == TN_STYLE_FEET ? INT64_C(3175000) : INT64_C(1000000);
@@ -374,8 +373,8 @@ static void length_text(const tn_house *house, int64_t length, char text[64])
 void tn_way_stop_text(const tn_house *house, const tn_way_stop *stop, char *text, size_t size)
 {
     char wide[64], far[64];
-    length_text(house, stop->way, wide);
-    length_text(house, stop->at.short_by, far);
+    tn_way_length_text(house, stop->way, wide);
+    tn_way_length_text(house, stop->at.short_by, far);
     bool leaf = stop->at.square.x0 == stop->at.square.x1;
     if (leaf)
         text[0] = '\0';

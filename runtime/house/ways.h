@@ -102,6 +102,9 @@ bool tn_tile_failure_stops(const tn_tile_failure *failure);
 tn_status tn_tile_stop(const tn_house *house, uint32_t cell, uint32_t tile, const tn_tile_failure *failure,
                        tn_way_stop *stop, tn_error *error);
 
+/* Lengths are shown to the next eighth of an inch, or millimetre. */
+void tn_way_length_text(const tn_house *house, int64_t length, char text[64]);
+
 /* "a person, 800mm wide, comes within 360mm of it", in words; empty of a leaf. */
 void tn_way_stop_text(const tn_house *house, const tn_way_stop *stop, char *text, size_t size);
 
@@ -127,6 +130,9 @@ typedef struct tn_flight_place {
 /* The flight in the floor above a cell, or under it; NULL: there is none. */
 const tn_face *tn_flight_above(const tn_house *house, uint32_t cell);
 const tn_face *tn_flight_below(const tn_house *house, uint32_t cell);
+
+/* Does a landing reach over an open side, on the floors of both cells? */
+bool tn_landing_reaches_over(const tn_cell_floor *floor, const tn_open_side *side, const tn_rectangle *landing);
 
 /* Does the stack of a cell, its lowest, fit? Else *flight is the first flight that has no place. */
 tn_status tn_stack_fits(const tn_house *house, uint32_t lowest, bool *fits, const tn_face **flight, tn_error *error);

@@ -12,6 +12,7 @@ class Notation:
     depths = {}                      # nonterminals that are made at least so deep, however deep they stand
     remade = ()                      # nonterminals that are made anew where the program finds a mistake in them
     hooks = {}
+    never = ()                       # productions that no file has, wherever they could stand
 
     def weight(self, production, context):
         return 1
@@ -56,7 +57,7 @@ class Maker:
         do not count, so that every derivation ends."""
         rules, cost = self.grammar.rules[symbol], self.grammar.production_cost
         weighed = [(p, self.notation.weight(p, context) if depth > -LEFT_OUT else 0) for p in rules]
-        allowed = [(p, w) for p, w in weighed if w > 0] or [(p, 1) for p in rules]
+        allowed = [(p, w) for p, w in weighed if w > 0] or [(p, 1) for p in rules if p.name not in self.notation.never]
         fitting = [(p, w) for p, w in allowed if cost(p) <= depth]
         if not fitting:
             least = min(cost(p) for p, _ in allowed)

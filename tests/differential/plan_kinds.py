@@ -19,6 +19,8 @@ class PlanKind(Kind):
         **dict.fromkeys(plans.OF_LIBRARIES, "what trays there are is known once plans are counted: plan.rows makes such files"),
         **dict.fromkeys(["form_clause: thickness size OPEN_BRACE CLOSE_BRACE", "form_clause: thickness size OPEN_BRACE layers CLOSE_BRACE", "layers: layer",
                          "layers: layers COMMA layer", "layer: NAME size", "thickness: WALL OUTSIDE", "thickness: WALL NAME"], "layers add up to a thickness: house.layers makes such forms"),
+        **dict.fromkeys([*plans.WALKED, "walk: WALK", "walk: LEAST WALK", "walk_end: cells", "walk_end: NAME"],
+                        "houses of all plans are not counted by walks: house.walks makes libraries of houses on one plan"),
         "value: NUMBER doc role": "taken by the grammar in order to say that a number has no unit",
     }
 

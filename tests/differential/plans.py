@@ -773,6 +773,11 @@ HOOKS = {"additive": alone, "comparable": side_question, "param_words": param_wo
          "using": using, "from": older, "spec_items": specifiers.items, "literal_tray": specifiers.literal_tray}
 
 
+# No houses of all plans are counted by walks, and so no file of these kinds asks for them (plan_kinds.py).
+WALKED = ["primary: walk OPEN cells COMMA TO walk_end " + more + "CLOSE" for more in (
+    "walk_by ", "COMMA THROUGH cells walk_by ", "COMMA BY or_names COMMA THROUGH cells ")] + ["primary: EXITS OPEN cells CLOSE"]
+
+
 class Plans(Notation):
     start = "items"
     indents = {"item": 0, "clause": 2, "form_clause": 2, "field": 2, "forbid": 2, "number_item": 2, "any_case": 2, "tile_part": 4, "CLOSE_BRACE": 0}
@@ -781,8 +786,11 @@ class Plans(Notation):
     remade = ("primary", "not", "expression", "condition", "tray_sum", "additive", "spec_item", "specifier", "pattern", "call_args", "clause", "any_case",
               "range", "cells", "sections", "section_items", "kinds", "tile_part", "number_item", "forbid", "number_case", "doc", "role", "let")
     hooks = HOOKS
+    never = WALKED
 
     def weight(self, production, place):
+        if production.name in self.never:
+            return 0
         allowed = SORTS.get(production.name)
         if allowed is not None and place.sort not in allowed and not (production.head == "value" and place.sort == "rule"):
             return 0

@@ -47,11 +47,12 @@ static void measure(const tn_house *house, tn_house_rules *rules)
 {
     tn_error error = {0};
     const tn_module *module = house->form->module;
+    tn_worth worth;
     mpq_t value, cost;
     mpq_inits(value, cost, NULL);
     for (uint32_t i = 0; i < module->HOUSE_MEASURE_count && i < MEASURES; i++)
         if (module->HOUSE_MEASURE_records[i].form == house->form->record - module->FORM_records)
-            tn_house_rules_measure(rules, tn_house_measured_of(module, i), value, cost, &error);
+            tn_house_rules_measure(rules, tn_house_measured_of(module, i), value, cost, &worth, &error);
     mpq_clears(value, cost, NULL);
 }
 

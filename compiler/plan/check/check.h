@@ -125,6 +125,8 @@ typedef enum tn_term_kind {
     TN_TERM_AREAS,
     TN_TERM_ROOMS,
     TN_TERM_COST,
+    TN_TERM_WALK,
+    TN_TERM_EXITS,
 } tn_term_kind;
 
 typedef struct tn_checked_term {
@@ -159,6 +161,7 @@ typedef struct tn_checked_sum {
     bool partial;                       /* has extremes or gaps: some stretches have no value */
     struct tn_checked_sum *over;        /* what it is divided by, or NULL */
     bool houses;                        /* has terms about houses */
+    bool walks;                         /* has walks among them: some houses have no value */
     const struct tn_checked_form *form; /* theirs */
     tn_span span;
     uint32_t index; /* emitted: of its SUM record */

@@ -173,6 +173,7 @@ typedef struct tn_checked_ask {
     const tn_checked_form *form;
     tn_decision first, second, through; /* of one thing: first alone */
     bool has_through;
+    bool to_outside; /* a walk: without a second */
     uint32_t *kinds;
     uint32_t kind_count;
     uint32_t function; /* emitted: what decides on one thing, or the MEETING record; plus one; 0: not yet */

@@ -143,10 +143,15 @@ static bool is_passable(const tn_checked_form *form, uint32_t kind)
            (kind >= TN_FACE_KIND_COUNT && form->openings[kind - TN_FACE_KIND_COUNT].passage);
 }
 
+static bool is_walk(const tn_ast_expr *expr)
+{
+    return expr->kind == TN_EXPR_APART || expr->kind == TN_EXPR_WALK;
+}
+
 /* `by step-free`: all that one walks through but stairs, unless the form has an opening of this name. */
 static bool is_step_free(const tn_ast_expr *expr, const tn_checked_form *form, const tn_ast_word *word)
 {
-    return expr->kind == TN_EXPR_APART && tn_word_is(word, "step-free") &&
+    return is_walk(expr) && tn_word_is(word, "step-free") &&
            tn_form_opening_named(form, word->text) == TN_NONE;
 }
 
@@ -175,7 +180,7 @@ static bool read_kinds(tn_check *check, const tn_ast_expr *expr, tn_checked_ask 
         if (kind == TN_NONE)
             continue;
         ask->kinds[ask->kind_count++] = kind;
-        if (expr->kind != TN_EXPR_APART || is_passable(ask->form, kind))
+        if (!is_walk(expr) || is_passable(ask->form, kind))
             continue;
         tn_diagnostic *d =
             tn_report(check->diagnostics, E_BAD_CELL, word->node.span, "nobody walks through `%s`", word->text);
@@ -187,22 +192,57 @@ static bool read_kinds(tn_check *check, const tn_ast_expr *expr, tn_checked_ask 
 
 static bool read_meeting(tn_check *check, const tn_ast_expr *expr, tn_checked_ask *ask)
 {
-    const tn_ast_expr *first = (const tn_ast_expr *)expr->parts.first, *second = (const tn_ast_expr *)first->node.next,
-                      *through = (const tn_ast_expr *)second->node.next;
+    bool outside = expr->kind == TN_EXPR_WALK && expr->name;
+    const tn_ast_expr *first = (const tn_ast_expr *)expr->parts.first, *next = (const tn_ast_expr *)first->node.next,
+                      *second = outside ? NULL : next, *through = second ? (const tn_ast_expr *)second->node.next : next;
     bool good = tn_form_cell(check, ask->form, first, true, &ask->first);
-    good &= tn_form_cell(check, ask->form, second, true, &ask->second);
+    ask->to_outside = outside;
+    if (second)
+        good &= tn_form_cell(check, ask->form, second, true, &ask->second);
     ask->has_through = through != NULL;
     if (through)
         good &= tn_form_cell(check, ask->form, through, true, &ask->through);
     return read_kinds(check, expr, ask) && good;
 }
 
+/* Walks are over floors on which a person finds room. */
+static bool has_ways(tn_check *check, const tn_ast_expr *expr, const tn_checked_form *form)
+{
+    if (form->way > 0)
+        return true;
+    bool feet = form->storey_count > 0 && tn_length_style_of(form->storeys[0].ast->length->text) == TN_STYLE_FEET;
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_BAD_WALK, expr->node.span,
+                  "nobody knows how one walks in houses of form `%s`: it does not say how wide a person is", form->name);
+    tn_note(check->diagnostics, d, &form->ast->name->node.span, "form `%s` is here", form->name);
+    tn_help(check->diagnostics, d, "add a line such as `way %s` to the form", feet ? "2'8\"" : "800mm");
+    return false;
+}
+
+/* Where a walk leads to is cells, or the outside. */
+static bool leads_somewhere(tn_check *check, const tn_ast_expr *walk)
+{
+    if (walk->kind != TN_EXPR_WALK || !walk->name || tn_word_is(walk->name, "outside"))
+        return true;
+    static const char *const words[] = {"outside", "outdoors", "out"};
+    tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_WALK, walk->name->node.span,
+                                 "a walk leads to cells or to `outside`, not to `%s`", walk->name->text);
+    if (tn_nearest(walk->name->text, words, sizeof words / sizeof *words))
+        tn_suggest(check->diagnostics, d, "outside");
+    else
+        tn_help(check->diagnostics, d, "write `to cell(%s)` if that is a function of the form", walk->name->text);
+    return false;
+}
+
 void tn_check_ask(tn_check *check, tn_ast_expr *expr)
 {
     tn_checked_ask *ask = new_ask(check, expr);
-    if (!ask)
+    bool walks = expr->kind == TN_EXPR_WALK || expr->kind == TN_EXPR_EXITS;
+    if (!ask || (walks && !(leads_somewhere(check, expr) & has_ways(check, expr, ask->form))))
         return;
-    if (expr->kind == TN_EXPR_CELL)
+    if (expr->kind == TN_EXPR_EXITS)
+        tn_form_cell(check, ask->form, (const tn_ast_expr *)expr->parts.first, true, &ask->first);
+    else if (expr->kind == TN_EXPR_CELL)
         tn_form_cell(check, ask->form, expr, true, &ask->first);
     else if (expr->kind == TN_EXPR_SECTION)
         tn_form_section(check, ask->form, expr, &ask->first);

@@ -41,6 +41,8 @@ bool tn_is_sum(const tn_ast_expr *expr)
     case TN_EXPR_VALUES:
     case TN_EXPR_EXTREME:
     case TN_EXPR_GAP:
+    case TN_EXPR_WALK:
+    case TN_EXPR_EXITS:
         return true;
     case TN_EXPR_QUANTITY:
     case TN_EXPR_OCCURRENCES:
@@ -99,6 +101,10 @@ void tn_check_sum_expr(tn_check *check, tn_ast_expr *expr)
     case TN_EXPR_EXTREME:
     case TN_EXPR_GAP:
         tn_check_extreme(check, expr);
+        break;
+    case TN_EXPR_WALK:
+    case TN_EXPR_EXITS:
+        tn_check_ask(check, expr);
         break;
     case TN_EXPR_VALUES:
         expr->field = check->schema ? tn_check_field_named(check, expr->name) : TN_NONE;
@@ -401,6 +407,10 @@ bool tn_sum_eval(tn_check *check, tn_ast_expr *expr, tn_sum_parts *out)
     case TN_EXPR_EXTREME:
     case TN_EXPR_GAP:
         return eval_extreme(check, expr, out);
+    case TN_EXPR_WALK:
+        return house_term(check, TN_TERM_WALK, expr, 1, out);
+    case TN_EXPR_EXITS:
+        return house_term(check, TN_TERM_EXITS, expr, 0, out);
     case TN_EXPR_NAME:
         return expr->rule && expr->rule->is_measure && eval_measure(check, expr->rule, out);
     case TN_EXPR_NEGATIVE:
@@ -437,6 +447,7 @@ tn_checked_sum *tn_sum_finish(tn_check *check, const tn_sum_parts *s, tn_span sp
         if (s->terms[i].kind < TN_TERM_CELLS)
             continue;
         made->houses = true;
+        made->walks |= s->terms[i].kind == TN_TERM_WALK;
         made->form = s->terms[i].part->ask->form;
     }
     return made;

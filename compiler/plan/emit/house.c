@@ -6,9 +6,10 @@
 
 static uint32_t emit_meeting(tn_emit *emit, const tn_ast_expr *expr, tn_checked_ask *ask)
 {
-    const char *name = expr->kind == TN_EXPR_TOUCH ? "touch" : "apart";
+    const char *name = expr->kind == TN_EXPR_TOUCH ? "touch" : expr->kind == TN_EXPR_WALK ? "walk" : "apart";
     uint32_t first = tn_emit_decision(emit, ask->form, &ask->first, name, TN_FUNCTION_CELL);
-    uint32_t second = tn_emit_decision(emit, ask->form, &ask->second, name, TN_FUNCTION_CELL);
+    uint32_t second =
+        ask->to_outside ? TN_NO_RECORD : tn_emit_decision(emit, ask->form, &ask->second, name, TN_FUNCTION_CELL);
     uint32_t through =
         ask->has_through ? tn_emit_decision(emit, ask->form, &ask->through, name, TN_FUNCTION_CELL) : TN_NO_RECORD;
     uint32_t index = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_MEETING);
@@ -28,7 +29,7 @@ void tn_emit_ask_needs(tn_emit *emit, tn_ast_expr *expr)
     bool cost = expr->kind == TN_EXPR_SUM && !expr->parts.first; /* it asks for no cells */
     if (!ask || ask->function > 0 || cost)
         return;
-    if (expr->kind == TN_EXPR_TOUCH || expr->kind == TN_EXPR_APART) {
+    if (expr->kind == TN_EXPR_TOUCH || expr->kind == TN_EXPR_APART || expr->kind == TN_EXPR_WALK) {
         ask->function = emit_meeting(emit, expr, ask) + 1;
         return;
     }
@@ -78,24 +79,40 @@ void tn_emit_house_rule(tn_emit *emit, const tn_checked_rule *rule)
                                                       PLACE(rule->ast->top.node.span)});
 }
 
+static tn_house_term_kind house_term_kind(const tn_checked_term *term)
+{
+    switch (term->kind) {
+    case TN_TERM_AREAS:
+        return TN_HOUSE_AREAS;
+    case TN_TERM_ROOMS:
+        return TN_HOUSE_ROOMS;
+    case TN_TERM_COST:
+        return TN_HOUSE_COST;
+    case TN_TERM_WALK:
+        return term->part->extreme == TN_EXTREME_MOST ? TN_HOUSE_LONGEST_WALK : TN_HOUSE_SHORTEST_WALK;
+    case TN_TERM_EXITS:
+        return TN_HOUSE_EXITS;
+    default:
+        return TN_HOUSE_CELLS;
+    }
+}
+
 /* The records of what the sum adds up of houses; returns the first. */
 static uint32_t emit_house_terms(tn_emit *emit, const tn_checked_sum *sum, uint32_t *count)
 {
-    static const uint32_t kinds[] = {[TN_TERM_CELLS] = TN_HOUSE_CELLS,
-                                     [TN_TERM_AREAS] = TN_HOUSE_AREAS,
-                                     [TN_TERM_ROOMS] = TN_HOUSE_ROOMS,
-                                     [TN_TERM_COST] = TN_HOUSE_COST};
     uint32_t first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_HOUSE_TERM);
     *count = 0;
     for (size_t i = 0; i < sum->count; i++) {
         const tn_checked_term *term = &sum->terms[i];
         if (term->kind < TN_TERM_CELLS)
             continue;
-        tn_builder_add_HOUSE_TERM(
-            emit->builder,
-            &(tn_house_term_record){.kind = kinds[term->kind],
-                                    .factor = tn_builder_string(emit->builder, term->factor),
-                                    .part = term->kind == TN_TERM_COST ? TN_NO_RECORD : term->part->ask->function - 1});
+        uint32_t asked = term->kind == TN_TERM_COST ? TN_NO_RECORD : term->part->ask->function - 1;
+        bool walk = term->kind == TN_TERM_WALK;
+        tn_builder_add_HOUSE_TERM(emit->builder,
+                                  &(tn_house_term_record){.kind = house_term_kind(term),
+                                                          .factor = tn_builder_string(emit->builder, term->factor),
+                                                          .part = walk ? TN_NO_RECORD : asked,
+                                                          .walk = walk ? asked : TN_NO_RECORD});
         ++*count;
     }
     return first;

@@ -219,9 +219,18 @@ static void emit_plain(tn_emit *emit, const comparing *c, const char *constant)
         [TN_EQUAL] = {TN_OP_ZERO, TN_OP_HOUSE_ZERO},      [TN_UNEQUAL] = {TN_OP_ZERO, TN_OP_HOUSE_ZERO},
         [TN_AT_LEAST] = {TN_OP_BELOW, TN_OP_HOUSE_BELOW}, [TN_GREATER] = {TN_OP_ABOVE, TN_OP_HOUSE_ABOVE},
     };
+    static const tn_opcode walked[] = {
+        [TN_LESS] = TN_OP_HOUSE_BELOW,         [TN_AT_MOST] = TN_OP_HOUSE_NOT_ABOVE,
+        [TN_EQUAL] = TN_OP_HOUSE_ZERO,         [TN_UNEQUAL] = TN_OP_HOUSE_NOT_ZERO,
+        [TN_AT_LEAST] = TN_OP_HOUSE_NOT_BELOW, [TN_GREATER] = TN_OP_HOUSE_ABOVE,
+    };
     uint32_t number = emit_sum(emit, c->sum, constant, false, TN_NO_RECORD);
     if (c->sum->houses)
         number = tn_emit_house_sum(emit, c->sum, number);
+    if (c->sum->walks) { /* what has no value meets no bound */
+        tn_emit_op(emit, c->span, walked[c->op], number, 0);
+        return;
+    }
     tn_emit_op(emit, c->span, c->modulus > 0 ? TN_OP_MULTIPLE : opcodes[c->op][c->sum->houses], number, c->modulus);
     if (c->op == TN_AT_MOST || c->op == TN_UNEQUAL || c->op == TN_AT_LEAST)
         tn_emit_op(emit, c->span, TN_OP_NOT, 0, 0);

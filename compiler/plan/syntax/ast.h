@@ -145,6 +145,8 @@ typedef enum tn_expr_kind {
     TN_EXPR_VALUES,  /* values(f): `name` */
     TN_EXPR_EXTREME, /* max(X of a), min(X of a): `figure`, `extreme`; parts are a, or nothing */
     TN_EXPR_GAP,     /* max(gap from a to b by f): `extreme`; parts are a and b; `name` is f, or NULL */
+    TN_EXPR_WALK,    /* walk(from, to): `extreme`, `kinds`; parts: from, to unless that is `name` (outside), by way of */
+    TN_EXPR_EXITS,   /* exits(cell(...)) */
     TN_EXPR_PLUS,
     TN_EXPR_MINUS,
     TN_EXPR_TIMES,

@@ -93,3 +93,19 @@ tn_ast_expr *tn_ast_meeting(tn_parse *parse, tn_expr_kind kind, tn_span span, tn
         expr->kinds = kinds;
     return expr;
 }
+
+tn_ast_expr *tn_ast_walk(tn_parse *parse, tn_span span, tn_ast_extreme_kind extreme, tn_ast_expr *from,
+                         tn_ast_expr *to, tn_ast_expr *through, tn_ast_list kinds)
+{
+    if (!from || !to)
+        return NULL;
+    bool word = to->kind == TN_EXPR_FIGURE;
+    tn_ast_list parts = word ? tn_ast_one(from) : tn_ast_append(tn_ast_one(from), to);
+    tn_ast_expr *expr = tn_ast_of(parse, TN_EXPR_WALK, span, through ? tn_ast_append(parts, through) : parts);
+    if (!expr)
+        return NULL;
+    expr->extreme = extreme;
+    expr->name = word ? to->name : NULL;
+    expr->kinds = kinds;
+    return expr;
+}

@@ -123,4 +123,8 @@ tn_ast_expr *tn_ast_house_leaf(tn_parse *parse, tn_expr_kind kind, tn_span span,
 /* `touch` or `apart`; kinds: tn_ast_word. */
 tn_ast_expr *tn_ast_meeting(tn_parse *parse, tn_expr_kind kind, tn_span span, tn_ast_list parts, tn_ast_list kinds);
 
+/* The longest or the shortest walk. to: cells, or a word as tn_ast_figure makes it; through: cells, or NULL. */
+tn_ast_expr *tn_ast_walk(tn_parse *parse, tn_span span, tn_ast_extreme_kind extreme, tn_ast_expr *from,
+                         tn_ast_expr *to, tn_ast_expr *through, tn_ast_list kinds);
+
 #endif

@@ -9,6 +9,7 @@
 #include "runtime/base/integers.h"
 #include "runtime/house/count/data.h"
 #include "runtime/house/rule/asked.h"
+#include "runtime/house/rule/stages.h"
 
 /* Adds to an error what helps. */
 static tn_status too_many(const tn_houses_kind *kind, tn_error *error)
@@ -347,6 +348,33 @@ void tn_other_clauses_set(const tn_house_form *form, const tn_house_library_reco
     other->form.module = &other->module;
 }
 
+/* ---- walks */
+
+static tn_status refuse_walks(const char *name, tn_error *error)
+{
+    tn_fail(error, TN_LIMIT, E_WALKS_OF_ALL,
+            "`%.80s` asks how one walks through a house: houses on all plans together are not counted by that", name);
+    tn_error_help(error, "ask about the houses on one plan (--plan PLAN or '#P'), or about one house (`tartan explain`)");
+    return TN_LIMIT;
+}
+
+tn_status tn_houses_check_walks(const tn_house_form *form, const tn_house_library_record *library,
+                                const tn_house_measures *measures, tn_error *error)
+{
+    const tn_module *module = form->module;
+    bool *walks = calloc((size_t)library->clause_count + 1, sizeof *walks);
+    tn_status status =
+        walks ? tn_clauses_walking(form, library, walks, error) : tn_fail_memory(error);
+    for (uint32_t i = 0; status == TN_OK && i < library->clause_count; i++)
+        if (walks[i])
+            status = refuse_walks(tn_text(module, module->HOUSE_CLAUSE_records[library->clause_first + i].name), error);
+    free(walks);
+    for (uint32_t k = 0; status == TN_OK && measures && k < measures->count; k++)
+        if (tn_measure_walks(module, &measures->of[k]->of))
+            status = refuse_walks(tn_text(module, measures->of[k]->of.name), error);
+    return status;
+}
+
 /* ---- the whole */
 
 /* The plans of measures are those of a library that knows what its trays add. */
@@ -393,7 +421,9 @@ tn_status tn_houses_of(const tn_house_form *form, const tn_house_library_record 
     h->high = h->high < h->low ? h->low : h->high;
     tn_houses_units_init(&h->units);
     tn_frontier_trays trays = {0};
-    tn_status status = tn_sections_begin(form, &h->sections, error);
+    tn_status status = tn_houses_check_walks(form, library, what->measures, error);
+    if (status == TN_OK)
+        status = tn_sections_begin(form, &h->sections, error);
     if (status == TN_OK)
         status = tn_houses_find_added(h, error);
     if (status == TN_OK && h->measures)

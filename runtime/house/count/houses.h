@@ -33,6 +33,11 @@ tn_status tn_houses_new(const tn_house_form *form, const tn_house_library_record
 tn_status tn_houses_check_walls(const tn_house_form *form, const tn_house_library_record *library,
                                 const tn_library *plans, tn_error *error);
 
+/* TN_LIMIT (E1687) if a clause of the library, or one of the measures (NULL: none), asks for walks or ways out: states
+ * would hold a length for each pair of doors between two trays. Such houses are gone through, on one plan (listing.h). */
+tn_status tn_houses_check_walks(const tn_house_form *form, const tn_house_library_record *library,
+                                const tn_house_measures *measures, tn_error *error);
+
 /* What is found out by measures: how the houses are spread over the values of the first, the least values of so many
  * houses (measure by measure in their order), or the values that no house betters in one measure without losing in
  * another; or what completes an open plan, and the best that the first measure, if there is one, still can be. */

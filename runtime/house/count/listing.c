@@ -161,7 +161,7 @@ static tn_status set_faces(tn_house_listing *v, tn_error *error)
 /* Shows the house, if it is kept with some tiles. */
 static tn_status show(tn_house_listing *v, bool *stop, tn_error *error)
 {
-    enum { PRICING_STEPS = 100 }; /* what a house costs takes as long as so many other steps */
+    enum { PRICING_STEPS = 100, WALKING_STEPS = 400 }; /* what a house costs takes as long as so many other steps */
     bool kept = false;
     tn_status status = keep(v, TN_STAGE_FACES, &kept, error);
     if (status == TN_OK && kept && tn_furnisher_prices(v->furnisher))
@@ -169,6 +169,8 @@ static tn_status show(tn_house_listing *v, bool *stop, tn_error *error)
     if (status != TN_OK || !kept)
         return status;
     status = tn_furnish(v->furnisher, &v->house, NULL, v->houses, error);
+    if (status == TN_OK && tn_furnisher_walks(v->furnisher))
+        status = spend(v, WALKING_STEPS * (1 + tn_furnisher_asked(v->furnisher)), error);
     return status == TN_OK && mpz_sgn(v->houses) > 0 ? v->listed(v, v->context, v->houses, stop, error) : status;
 }
 
@@ -529,8 +531,8 @@ tn_status tn_house_listing_new(const tn_house_form *form, const tn_house_library
         status = tn_furnisher_new(form, library, &v->furnisher, error);
     if (status == TN_OK)
         status = tn_sections_begin(form, &v->sections, error);
-    if (status == TN_OK && tn_furnisher_prices(v->furnisher))
-        v->sections.apart = true; /* each section has its own costs */
+    if (status == TN_OK && (tn_furnisher_prices(v->furnisher) || tn_furnisher_walks(v->furnisher)))
+        v->sections.apart = true; /* each section has its own costs, and roofs that people walk below */
     if (status == TN_OK)
         status = tn_house_rules_new(form, 0, &v->rules, error);
     if (status != TN_OK) {

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
-#include "runtime/base/int128.h"
 
 #define NO_PART UINT32_MAX
 
@@ -33,8 +32,7 @@ typedef struct tn_floor_places {
 
 /* ---- what cuts the plane */
 
-/* Its middle's places in a passage: on the side, and from there inwards by half of the way. */
-static tn_rectangle points_of(const tn_floor *floor, const tn_passage *passage)
+tn_rectangle tn_floor_points(const tn_floor *floor, const tn_passage *passage)
 {
     const tn_rectangle *c = &floor->clear;
     int64_t from = passage->from + floor->way / 2, to = passage->to - floor->way / 2;
@@ -50,9 +48,9 @@ static tn_rectangle points_of(const tn_floor *floor, const tn_passage *passage)
     }
 }
 
-static tn_rectangle gate_of(const tn_floor *floor, const tn_passage *passage)
+tn_rectangle tn_floor_gate(const tn_floor *floor, const tn_passage *passage)
 {
-    tn_rectangle gate = points_of(floor, passage);
+    tn_rectangle gate = tn_floor_points(floor, passage);
     gate.x0 -= passage->side == TN_HOUSE_RIGHT ? floor->way / 2 : 0;
     gate.x1 += passage->side == TN_HOUSE_LEFT ? floor->way / 2 : 0;
     gate.y0 -= passage->side == TN_HOUSE_FRONT ? floor->way / 2 : 0;
@@ -60,18 +58,13 @@ static tn_rectangle gate_of(const tn_floor *floor, const tn_passage *passage)
     return gate;
 }
 
-static int64_t half_down(int64_t sum)
-{
-    return sum >= 0 || sum % 2 == 0 ? sum / 2 : sum / 2 - 1;
-}
-
 static tn_rectangle middle_of(const tn_rectangle *r)
 {
-    int64_t x = half_down(r->x0 + r->x1), y = half_down(r->y0 + r->y1);
-    return (tn_rectangle){x, x, y, y};
+    tn_point m = tn_rectangle_middle(r);
+    return (tn_rectangle){m.x, m.x, m.y, m.y};
 }
 
-static bool has_room(const tn_floor *floor)
+bool tn_floor_has_room(const tn_floor *floor)
 {
     const tn_rectangle *c = &floor->clear;
     return c->x1 - c->x0 >= floor->way && c->y1 - c->y0 >= floor->way;
@@ -109,11 +102,11 @@ static bool find_edges(tn_cut_plane *p)
     p->y.at = malloc(2 * most * sizeof *p->y.at);
     if (!p->x.at || !p->y.at)
         return false;
-    if (has_room(f))
+    if (tn_floor_has_room(f))
         cut(p, tn_rectangle_grown(&f->clear, -f->way / 2));
     for (size_t i = 0; i < f->passage_count; i++) {
-        cut(p, gate_of(f, &f->passages[i]));
-        cut(p, points_of(f, &f->passages[i]));
+        cut(p, tn_floor_gate(f, &f->passages[i]));
+        cut(p, tn_floor_points(f, &f->passages[i]));
     }
     for (size_t i = 0; i < f->obstacle_count; i++)
         cut(p, tn_rectangle_grown(&f->obstacles[i], f->way / 2));
@@ -175,10 +168,10 @@ static bool find_free(tn_cut_plane *p)
     p->free = calloc(p->wide * p->deep + 1, sizeof *p->free);
     if (!p->free)
         return false;
-    if (has_room(f))
+    if (tn_floor_has_room(f))
         set_free(p, tn_rectangle_grown(&f->clear, -f->way / 2));
     for (size_t i = 0; i < f->passage_count; i++)
-        set_free(p, gate_of(f, &f->passages[i]));
+        set_free(p, tn_floor_gate(f, &f->passages[i]));
     for (size_t i = 0; i < f->obstacle_count; i++)
         set_taken(p, tn_rectangle_grown(&f->obstacles[i], f->way / 2));
     return true;
@@ -289,7 +282,7 @@ static void find_joined(const tn_cut_plane *p, tn_floor_answer *a)
 {
     const tn_floor *f = p->floor;
     for (size_t i = 0; i < f->passage_count; i++)
-        find_touched(p, points_of(f, &f->passages[i]), a->joined + i * a->words);
+        find_touched(p, tn_floor_points(f, &f->passages[i]), a->joined + i * a->words);
     for (size_t i = 0; i < f->landing_count; i++)
         if (tn_rectangle_within(&f->landings[i], &f->clear) &&
             !meets_any(&f->landings[i], f->obstacles, f->obstacle_count))
@@ -484,7 +477,7 @@ static void find_missed(const tn_floor *f, const tn_floor_answer *a, tn_rectangl
         *wanted = tn_rectangle_grown(missed, f->way / 2);
     } else if (a->of < f->passage_count) {
         const tn_passage *passage = &f->passages[a->of];
-        *wanted = points_of(f, passage);
+        *wanted = tn_floor_points(f, passage);
         *missed = *wanted;
         *(passage->side <= TN_HOUSE_FRONT ? &missed->x0 : &missed->y0) -= f->way / 2;
         *(passage->side <= TN_HOUSE_FRONT ? &missed->x1 : &missed->y1) += f->way / 2;
@@ -492,20 +485,6 @@ static void find_missed(const tn_floor *f, const tn_floor_answer *a, tn_rectangl
         *missed = f->landings[a->of - f->passage_count];
         *wanted = middle_of(missed);
     }
-}
-
-/* The root, rounded up. */
-static int64_t root_of(tn_int128 square)
-{
-    int64_t low = 0, high = INT64_C(1) << 62;
-    while (low < high) {
-        int64_t middle = low + (high - low) / 2;
-        if ((tn_int128)middle * middle < square)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
 }
 
 /* The places of those parts, and the one that is nearest to what is wanted. */
@@ -526,7 +505,7 @@ static tn_status follow_parts(const tn_cut_plane *p, const uint64_t *parts, cons
         if (!stop->stands || distance < best) {
             stop->square = square_at(p->floor, x, y);
             best = distance;
-            stop->short_by = root_of(best);
+            stop->short_by = tn_root_up(best);
         }
         stop->stands = true;
         stop->ground[stop->ground_count++] = tn_rectangle_grown(&place, p->floor->way / 2);

@@ -39,6 +39,13 @@ typedef struct tn_floor {
     size_t passage_count;
 } tn_floor;
 
+/* The places of a person's middle in a passage: on the side, and (the gate) from there inwards by half of the way. */
+tn_rectangle tn_floor_points(const tn_floor *floor, const tn_passage *passage);
+tn_rectangle tn_floor_gate(const tn_floor *floor, const tn_passage *passage);
+
+/* Can a person stand in the clear rectangle at all, but for obstacles? */
+bool tn_floor_has_room(const tn_floor *floor);
+
 /* What is wrong first; of: a passage or, behind these, a landing; a keep; a leaf. */
 typedef enum tn_floor_fault {
     TN_FLOOR_FITS,

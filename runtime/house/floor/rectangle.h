@@ -5,9 +5,24 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "runtime/base/int128.h"
+
 typedef struct tn_rectangle {
     int64_t x0, x1, y0, y1;
 } tn_rectangle;
+
+typedef struct tn_point {
+    int64_t x, y;
+} tn_point;
+
+/* Its middle, rounded down. */
+tn_point tn_rectangle_middle(const tn_rectangle *r);
+
+/* The root, rounded up; of what is not below 0. */
+int64_t tn_root_up(tn_int128 square);
+
+/* How far two points are apart, rounded up. */
+int64_t tn_distance_up(tn_point a, tn_point b);
 
 /* Have they more in common than edges? */
 static inline bool tn_rectangles_meet(const tn_rectangle *a, const tn_rectangle *b)

@@ -219,16 +219,33 @@ static bool is_factor(const tn_module *module, tn_string text)
     return good;
 }
 
-static tn_status check_house_term(const tn_checker *checker, uint32_t schema, uint32_t index)
+/* Do all its functions decide on cells of the schema? */
+static bool decides_on_cells(const tn_checker *checker, const tn_meeting_record *meeting, uint32_t schema)
+{
+    const uint32_t functions[] = {meeting->first, meeting->second, meeting->through};
+    bool good = true;
+    for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
+        good = good &&
+               (functions[i] == TN_NO_RECORD || decides(checker, functions[i], TN_FUNCTION_CELL, schema));
+    return good;
+}
+
+/* Walks are over floors: the form says how wide a person is. */
+static tn_status check_house_term(const tn_checker *checker, const tn_form_record *form, uint32_t index)
 {
     const tn_house_term_record *term = &checker->module->HOUSE_TERM_records[index];
     tn_function_kind kind = term->kind == TN_HOUSE_ROOMS ? TN_FUNCTION_ROOM : TN_FUNCTION_CELL;
+    bool walk = tn_house_term_walks(term->kind), cost = term->kind == TN_HOUSE_COST;
     if (!is_factor(checker->module, term->factor))
         return tn_refuse(checker, "term %u of houses has no factor, or 0", index);
-    if ((term->kind == TN_HOUSE_COST) != (term->part == TN_NO_RECORD))
+    if ((cost || walk) != (term->part == TN_NO_RECORD) || walk != (term->walk != TN_NO_RECORD))
         return tn_refuse(checker, "term %u of houses does not say what it adds up", index);
-    if (term->part != TN_NO_RECORD && !decides(checker, term->part, kind, schema))
+    if (tn_house_term_of_floors(term->kind) && form->way <= 0)
+        return tn_refuse(checker, "term %u of houses is of walks, and the form does not ask for ways", index);
+    if (term->part != TN_NO_RECORD && !decides(checker, term->part, kind, form->schema))
         return tn_refuse(checker, "term %u of houses names a function of another kind or schema", index);
+    if (walk && !decides_on_cells(checker, &checker->module->MEETING_records[term->walk], form->schema))
+        return tn_refuse(checker, "the walk of term %u of houses is not between cells", index);
     return TN_OK;
 }
 
@@ -247,7 +264,7 @@ static tn_status check_added(const tn_checker *checker, uint32_t form, uint32_t 
             return tn_refuse(checker, "sum %u of houses may have no value", sum);
     }
     for (uint32_t i = 0; status == TN_OK && i < count; i++)
-        status = check_house_term(checker, schema, first + i);
+        status = check_house_term(checker, &module->FORM_records[form], first + i);
     return status;
 }
 
@@ -374,16 +391,23 @@ static tn_status check_counted(const tn_checker *checker, const tn_instruction *
     return check_decision(checker, instruction);
 }
 
+/* Are its functions before the one that is checked? */
+static bool is_lower(const tn_checker *checker, const tn_meeting_record *meeting)
+{
+    return meeting->first < checker->record &&
+           (meeting->second == TN_NO_RECORD || meeting->second < checker->record) &&
+           (meeting->through == TN_NO_RECORD || meeting->through < checker->record);
+}
+
 static tn_status check_meeting(const tn_checker *checker, const tn_instruction *instruction)
 {
     const tn_meeting_record *meeting = &checker->module->MEETING_records[instruction->first];
-    uint32_t functions[] = {meeting->first, meeting->second,
-                            meeting->through == TN_NO_RECORD ? meeting->first : meeting->through};
-    for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
-        if (functions[i] >= checker->record ||
-            !decides(checker, functions[i], TN_FUNCTION_CELL, function_of(checker, checker->record)->schema))
-            return tn_refuse(checker, "meeting %u asks a function that does not decide on cells",
-                             (unsigned)instruction->first);
+    uint32_t schema = function_of(checker, checker->record)->schema;
+    if (meeting->second == TN_NO_RECORD)
+        return tn_refuse(checker, "meeting %u is of one kind of cells", (unsigned)instruction->first);
+    if (!is_lower(checker, meeting) || !decides_on_cells(checker, meeting, schema))
+        return tn_refuse(checker, "meeting %u asks a function that does not decide on cells",
+                         (unsigned)instruction->first);
     return TN_OK;
 }
 
@@ -402,17 +426,29 @@ static tn_status check_house_summed(const tn_checker *checker, const tn_instruct
                 tn_term_region(term->kind) == TN_REGION_STRETCH;
     }
     for (uint32_t i = 0; i < compared->term_count; i++) {
-        uint32_t part = module->HOUSE_TERM_records[compared->term_first + i].part;
-        lower = lower && (part == TN_NO_RECORD || part < checker->record);
+        const tn_house_term_record *term = &module->HOUSE_TERM_records[compared->term_first + i];
+        lower = lower && (term->part == TN_NO_RECORD || term->part < checker->record) &&
+                (term->walk == TN_NO_RECORD || is_lower(checker, &module->MEETING_records[term->walk]));
     }
     return lower ? TN_OK
                  : tn_refuse(checker, "sum %u of houses has `matches`, or a function that is not a lower one",
                              (unsigned)instruction->first);
 }
 
+static void list_walk(tn_lister *lister, const tn_meeting_record *walk)
+{
+    fprintf(lister->out, " from function %u", walk->first);
+    if (walk->second == TN_NO_RECORD)
+        fputs(" to the outside", lister->out);
+    else
+        fprintf(lister->out, " to function %u", walk->second);
+    if (walk->through != TN_NO_RECORD)
+        fprintf(lister->out, " through function %u", walk->through);
+}
+
 static void list_house_summed(tn_lister *lister, const tn_instruction *instruction)
 {
-    static const char *const kinds[] = {"cells", "areas", "rooms", "cost"};
+    static const char *const kinds[] = {"cells", "areas", "rooms", "cost", "longest walk", "shortest walk", "exits"};
     const tn_module *module = lister->module;
     const tn_house_sum_record *compared = &module->HOUSE_SUM_records[instruction->first];
     fprintf(lister->out, "house sum %u: ", (unsigned)instruction->first);
@@ -422,6 +458,8 @@ static void list_house_summed(tn_lister *lister, const tn_instruction *instructi
         fprintf(lister->out, " + %s %s", tn_text(module, term->factor), kinds[term->kind]);
         if (term->part != TN_NO_RECORD)
             fprintf(lister->out, " of function %u", term->part);
+        if (term->walk != TN_NO_RECORD)
+            list_walk(lister, &module->MEETING_records[term->walk]);
     }
 }
 

@@ -51,6 +51,18 @@ static inline const tn_choice_record *tn_form_choice(const tn_house_form *form, 
     return &form->module->CHOICE_records[form->record->choice_first + choice];
 }
 
+/* Is the term of walks between cells? */
+static inline bool tn_house_term_walks(uint32_t kind)
+{
+    return kind == TN_HOUSE_LONGEST_WALK || kind == TN_HOUSE_SHORTEST_WALK;
+}
+
+/* Does it depend on walks, and so on all that stands on the floors of a house? */
+static inline bool tn_house_term_of_floors(uint32_t kind)
+{
+    return tn_house_term_walks(kind) || kind == TN_HOUSE_EXITS;
+}
+
 static inline bool tn_form_is_outdoor(const tn_house_form *form, uint32_t function)
 {
     return tn_form_rule(form, function)->flags & TN_OUTDOOR;

@@ -38,14 +38,16 @@ typedef struct tn_house_gallery {
 
 /* What of a house is lit up on its plans, and how: red, for a part that is at fault; rose, for what belongs to one;
  * green, for what is as it should be; grey, for what would stand there; pale blue, for the ground that a person comes
- * to, and a blue square, for the person. at: in a storey; a wall is without width or depth. */
+ * to, and a blue square, for the person; a dark blue line, for a walk. at: in a storey; a wall is without width or depth;
+ * a line of a walk goes from (x0, y0) to (x1, y1). */
 typedef enum tn_lit_tone {
     TN_LIT_FAULT,
     TN_LIT_BESIDE,
     TN_LIT_GOOD,
     TN_LIT_THING,
     TN_LIT_GROUND,
-    TN_LIT_PERSON
+    TN_LIT_PERSON,
+    TN_LIT_WALK
 } tn_lit_tone;
 
 typedef struct tn_lit {

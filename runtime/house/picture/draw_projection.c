@@ -297,10 +297,24 @@ void tn_draw_projection(const tn_canvas *canvas, const tn_house_drawn *drawn, do
 /* ---- what is lit up */
 
 #define WALL_LIGHT 4.0 /* points: how broad a wall shines */
+#define WALK_WIDTH 1.8
 
 static const double lights[][3] = {
     [TN_LIT_FAULT] = {0.78, 0.20, 0.17}, [TN_LIT_BESIDE] = {0.93, 0.62, 0.58}, [TN_LIT_GOOD] = {0.36, 0.66, 0.38},
-    [TN_LIT_THING] = {0.45, 0.45, 0.45}, [TN_LIT_GROUND] = {0.35, 0.60, 0.90}, [TN_LIT_PERSON] = {0.10, 0.25, 0.65}};
+    [TN_LIT_THING] = {0.45, 0.45, 0.45}, [TN_LIT_GROUND] = {0.35, 0.60, 0.90}, [TN_LIT_PERSON] = {0.10, 0.25, 0.65},
+    [TN_LIT_WALK] = {0.08, 0.20, 0.60}};
+
+static void paint_walk(const tn_drawing_frame *f, const tn_rectangle *line)
+{
+    const double *c = lights[TN_LIT_WALK];
+    tn_paint_move_to(f->paint, place_u(f, (double)line->x0), place_v(f, (double)line->y0));
+    tn_paint_line_to(f->paint, place_u(f, (double)line->x1), place_v(f, (double)line->y1));
+    tn_paint_colour(f->paint, c[0], c[1], c[2]);
+    tn_paint_line_width(f->paint, WALK_WIDTH);
+    tn_paint_line_cap(f->paint, TN_CAP_ROUND);
+    tn_paint_stroke(f->paint);
+    tn_paint_line_cap(f->paint, TN_CAP_BUTT);
+}
 
 /* A space shines through, with a clear edge inside its own; a wall is a broad line. */
 static void paint_lit(const tn_drawing_frame *f, const tn_lit *lit)
@@ -329,7 +343,7 @@ static void paint_lit(const tn_drawing_frame *f, const tn_lit *lit)
 
 static int pass_of(tn_lit_tone tone)
 {
-    return tone == TN_LIT_PERSON ? 2 : tone == TN_LIT_FAULT ? 1 : 0;
+    return tone == TN_LIT_PERSON || tone == TN_LIT_WALK ? 2 : tone == TN_LIT_FAULT ? 1 : 0;
 }
 
 void tn_draw_lits(const tn_canvas *canvas, const tn_house_drawn *drawn, double points_per_nm, const tn_lit *lits,
@@ -339,7 +353,11 @@ void tn_draw_lits(const tn_canvas *canvas, const tn_house_drawn *drawn, double p
     uint32_t storey = drawn->projection.aspect.storey;
     for (int pass = 0; pass < 3; pass++) /* what is at fault comes last but for the person */
         for (size_t i = 0; i < count; i++)
-            if (lits[i].storey == storey && pass_of(lits[i].tone) == pass)
-                paint_lit(&f, &lits[i]);
+            if (lits[i].storey == storey && pass_of(lits[i].tone) == pass) {
+                if (lits[i].tone == TN_LIT_WALK)
+                    paint_walk(&f, &lits[i].at);
+                else
+                    paint_lit(&f, &lits[i]);
+            }
     tn_paint_colour(f.paint, 0, 0, 0);
 }

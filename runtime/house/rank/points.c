@@ -109,9 +109,10 @@ static bool adds_costs(const tn_houses *h)
 static tn_status value_of(const tn_seeking *s, uint32_t k, const mpq_t shell, tn_int128 *steps, tn_error *error)
 {
     const tn_houses *h = s->houses;
+    tn_worth worth; /* houses are counted by measures that all of them have */
     mpq_t value, cost;
     mpq_inits(value, cost, NULL);
-    tn_status status = tn_house_rules_measure(s->rules, h->measures->of[k]->of, value, cost, error);
+    tn_status status = tn_house_rules_measure(s->rules, h->measures->of[k]->of, value, cost, &worth, error);
     mpq_mul(cost, cost, shell);
     mpq_add(value, value, cost);
     if (status == TN_OK && !tn_steps_of(value, h->units.measures[k], steps))

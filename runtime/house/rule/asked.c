@@ -300,6 +300,8 @@ void tn_house_rules_free(tn_house_rules *rules)
     free(rules->sums);
     free(rules->rooms);
     free(rules->room_of);
+    tn_walks_clear(&rules->walks);
+    tn_walk_floors_clear(&rules->floors);
     free(rules);
 }
 
@@ -329,7 +331,7 @@ tn_status tn_house_rules_start(tn_house_rules *rules, const tn_house *house, tn_
 {
     rules->house = house;
     tn_status status = make_room(rules, house, error);
-    rules->gathered = rules->summed = rules->priced = false;
+    rules->gathered = rules->summed = rules->priced = rules->walked = false;
     if (status == TN_OK)
         status = tn_plan_vm_plan(rules->vm, house->trays, house->length, error);
     if (status == TN_OK)

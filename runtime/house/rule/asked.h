@@ -35,14 +35,19 @@ bool tn_house_is_step(const tn_house *house, const tn_meeting_record *walk, cons
 /* H on the whole house, for a function of kind HOLDS. */
 tn_status tn_house_rules_hold(tn_house_rules *rules, uint32_t function, bool *holds, tn_error *error);
 
+/* What a number of a house is worth: so much; nothing, as some cell has no walk; or less or more than all numbers, as
+ * there is no cell whose walk would be the longest, or the shortest. */
+typedef enum tn_worth { TN_HAS_WORTH, TN_NO_WORTH, TN_BELOW_ALL, TN_ABOVE_ALL } tn_worth;
+
 /* The value of a measure on the house, in nanometres to its power, without what it adds up of costs. cost: what it has
  * of these, in parts of the house's cost. Both are initialised. */
 tn_status tn_house_rules_measure(tn_house_rules *rules, tn_house_measured measure, mpq_t value, mpq_t cost,
-                                 tn_error *error);
+                                 tn_worth *worth, tn_error *error);
 
 /* The number that a HOUSE_SUM record compares with 0, with its constant, in nanometres to its power; *costs: is what
  * the house costs part of it? `value` is initialised. */
-tn_status tn_house_rules_sum(tn_house_rules *rules, uint32_t sum, mpq_t value, bool *costs, tn_error *error);
+tn_status tn_house_rules_sum(tn_house_rules *rules, uint32_t sum, mpq_t value, tn_worth *worth, bool *costs,
+                             tn_error *error);
 
 /* What the house costs, unrounded, into `cost`, which is initialised. TN_INVALID (E1649) where that depends on tiles
  * that its line leaves out. */

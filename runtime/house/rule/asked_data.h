@@ -3,6 +3,7 @@
 #define TARTAN_HOUSE_RULE_ASKED_DATA_H
 
 #include "runtime/house/rule/asked.h"
+#include "runtime/house/walk/walk.h"
 #include "runtime/plan/match/vm.h"
 
 /* A room: cells of one function that open faces join, with the voids above. It spans the trays [begin, end). */
@@ -31,6 +32,9 @@ struct tn_house_rules {
     bool summed;         /* it has the plan */
     bool priced;         /* the cost is known */
     mpq_t cost;
+    bool walked; /* the walks are known */
+    tn_walks walks;
+    tn_walk_floors floors;
 };
 
 /* ---- asked_rooms.c */
@@ -41,6 +45,19 @@ tn_status tn_rooms_gather(tn_house_rules *rules, tn_error *error);
 /* Is there no walk from the cell to one of the second kind? Cells between are of the third. Then rules->seen are the
  * cells that walks come to. */
 bool tn_cell_apart(tn_house_rules *rules, const tn_meeting_record *walk, uint32_t from);
+
+/* ---- walked.c */
+/* A term about walks or ways out: its number, and the cell that it is of; TN_NO_WORTH: the first without a walk. */
+typedef struct tn_walked {
+    tn_worth worth;
+    int64_t number;
+    uint32_t cell;
+} tn_walked;
+tn_status tn_house_walked(tn_house_rules *rules, const tn_house_term_record *term, tn_walked *walked, tn_error *error);
+
+/* The shortest walk from a cell, by a term about walks: none if it is where that leads. The caller frees *lines. */
+tn_status tn_house_walk_lines(tn_house_rules *rules, const tn_house_term_record *term, uint32_t cell,
+                              tn_walk_line **lines, size_t *count, tn_error *error);
 
 /* ---- measured.c */
 /* *so: does the number of the house compare so with 0 (HOUSE_BELOW and those after it)? */

@@ -1,4 +1,4 @@
-/* Goes through combinations of tiles, also if clauses ask what these cost. */
+/* Goes through combinations of tiles, also if clauses ask what these cost, or how one walks around them. */
 #include "runtime/house/rule/furnish.h"
 
 #include <stdlib.h>
@@ -8,11 +8,13 @@
 #include "runtime/base/array.h"
 #include "runtime/base/integers.h"
 
+#include "runtime/house/form/form.h"
 #include "runtime/house/measure/measure.h"
 #include "runtime/house/rule/asked.h"
 #include "runtime/house/rule/stages.h"
+#include "runtime/house/rule/tile_groups.h"
 #include "runtime/house/schedule/cost.h"
-#include "runtime/house/ways.h"
+#include "runtime/house/walk/walk.h"
 
 /* How many tiles fit in a cell, kept for cells of one function and storey that are equally large and have the same in
  * and near their faces: plans of a library have few kinds of these. */
@@ -48,13 +50,15 @@ struct tn_furnisher {
     const tn_house_form *form;
     const tn_house_library_record *library;
     tn_clause_stage *stages; /* of each clause */
-    bool prices;             /* a clause is of the stage of tiles */
-    tn_house_rules *rules;   /* NULL unless one is */
+    bool prices, walks;      /* a clause asks for costs, or for walks */
+    tn_house_rules *rules;   /* NULL unless one does */
     tn_house *house;
     tn_fits fits;
     size_t *tiles; /* how many fit in each cell; 1 if it wants none */
     size_t tile_room;
-    tn_tile_costs *costs; /* NULL: every combination counts */
+    tn_tile_costs *costs; /* NULL: what they cost does not count */
+    tn_tile_groups groups; /* of no cells: how one walks around them does not count */
+    tn_walk_floors floors;
 };
 
 /* ==== tiles that fit in a cell */
@@ -380,13 +384,16 @@ static tn_status add_all(const tn_furnisher *f, tn_error *error)
 
 /* ---- which sums are kept */
 
+/* steps: what the tiles cost together. */
 static tn_status ask_clauses(tn_furnisher *f, tn_int128 steps, bool *kept, tn_error *error)
 {
     tn_tile_costs *c = f->costs;
     tn_status status = tn_house_rules_start(f->rules, f->house, error); /* forgets the answers at another price */
-    tn_steps_number(steps, c->unit, c->price);
-    mpq_add(c->price, c->price, c->shell);
-    if (status == TN_OK)
+    if (c) {
+        tn_steps_number(steps, c->unit, c->price);
+        mpq_add(c->price, c->price, c->shell);
+    }
+    if (status == TN_OK && c)
         tn_house_rules_price(f->rules, c->price);
     for (uint32_t i = 0; status == TN_OK && *kept && i < f->library->clause_count; i++) {
         bool drops = false;
@@ -428,7 +435,96 @@ static tn_status add_costs(tn_furnisher *f, mpq_srcptr cost, tn_error *error)
     return status == TN_OK ? choose_sums(f, cost, error) : status;
 }
 
-/* ---- combinations */
+/* ==== how one walks around them */
+
+/* A tile's number among those of a cell: by what walks tell of it, and what it costs. */
+static tn_status number_tiles(tn_furnisher *f, uint32_t cell, const tn_variants *tiles, uint64_t *numbers,
+                              tn_error *error)
+{
+    uint32_t *walks = tn_array_new((uint64_t)tiles->count + 1, sizeof *walks);
+    tn_status status =
+        walks ? tn_walk_tiles(f->house, cell, tiles, &f->floors, walks, error) : tn_fail_memory(error);
+    for (size_t i = 0; status == TN_OK && i < tiles->count; i++) {
+        size_t same = 0;
+        while (f->costs && cost_of(f->costs, cell, same) != cost_of(f->costs, cell, i))
+            same++;
+        numbers[i] = (uint64_t)same << 32 | walks[i];
+    }
+    free(walks);
+    return status;
+}
+
+static tn_status group_cell(tn_furnisher *f, uint32_t cell, tn_error *error)
+{
+    tn_variants tiles;
+    uint64_t *numbers = tn_array_new((uint64_t)f->tiles[cell] + 1, sizeof *numbers);
+    tn_status status = tn_tile_variants(f->house, cell, &tiles, error);
+    if (status == TN_OK && !numbers)
+        status = tn_fail_memory(error);
+    if (status == TN_OK && tiles.wanted)
+        status = number_tiles(f, cell, &tiles, numbers, error);
+    else if (status == TN_OK)
+        numbers[0] = 0;
+    if (status == TN_OK)
+        status = tn_tile_groups_add(&f->groups, cell, numbers, f->tiles[cell], error);
+    tn_variants_clear(&tiles);
+    free(numbers);
+    return status;
+}
+
+/* A combination of the groups. wanted: what all tiles have to cost, or NULL. */
+typedef struct tn_asking_tiles {
+    tn_furnisher *furnisher;
+    const tn_int128 *wanted;
+} tn_asking_tiles;
+
+static tn_status ask_tiles(void *context, const size_t *tiles, bool *kept, tn_error *error)
+{
+    const tn_asking_tiles *asking = context;
+    tn_furnisher *f = asking->furnisher;
+    tn_int128 steps = 0;
+    for (size_t i = 0; i < f->house->cell_count; i++) {
+        f->house->cells[i].variant = tiles[i];
+        steps += f->costs ? cost_of(f->costs, i, tiles[i]) : 0;
+    }
+    *kept = !asking->wanted || steps == *asking->wanted;
+    tn_status status = *kept ? ask_clauses(f, steps, kept, error) : TN_OK;
+    for (size_t i = 0; i < f->house->cell_count; i++)
+        f->house->cells[i].variant = 0;
+    return status;
+}
+
+/* cost: or NULL. */
+static tn_status add_groups(tn_furnisher *f, mpq_srcptr cost, tn_error *error)
+{
+    tn_int128 wanted = 0;
+    tn_asking_tiles asking = {f, cost ? &wanted : NULL};
+    tn_status status = tn_tile_groups_begin(&f->groups, f->house->cell_count, error);
+    if (status == TN_OK && (f->prices || cost))
+        status = begin(f, error);
+    if (status == TN_OK && f->costs)
+        status = price_cells(f, error);
+    if (status == TN_OK && f->prices)
+        status = tn_house_exact_cost(f->house, tn_house_shell, f->costs->shell, error);
+    for (uint32_t i = 0; status == TN_OK && i < f->house->cell_count; i++)
+        status = group_cell(f, i, error);
+    if (status == TN_OK && cost && !tn_steps_of(cost, f->costs->unit, &wanted))
+        wanted = -1; /* none costs so much */
+    return status == TN_OK ? tn_tile_groups_ask(&f->groups, ask_tiles, &asking, error) : status;
+}
+
+/* ==== combinations: by a state, which is what the tiles of the cells so far cost, or their groups */
+
+static bool is_counted(const tn_furnisher *f)
+{
+    return f->costs || f->groups.cells > 0;
+}
+
+static tn_int128 next_state(const tn_furnisher *f, size_t cell, tn_int128 state, size_t tile)
+{
+    return f->groups.cells > 0 ? (tn_int128)tn_tile_groups_next(&f->groups, cell, (size_t)state, tile)
+                               : state + cost_of(f->costs, cell, tile);
+}
 
 static bool is_kept(const tn_tile_costs *c, tn_int128 steps)
 {
@@ -443,19 +539,24 @@ static bool is_kept(const tn_tile_costs *c, tn_int128 steps)
     return low < c->sums[0].count && c->sums[0].steps[low] == steps && c->kept[low];
 }
 
-/* count := the kept combinations of the tiles from a cell on, where those before it cost so much. */
-static void count_from(const tn_tile_costs *c, size_t cell, tn_int128 before, mpz_t count)
+/* count := the kept combinations of the tiles from a cell on, by the state of those before it. */
+static void count_from(const tn_furnisher *f, size_t cell, tn_int128 state, mpz_t count)
 {
+    const tn_tile_costs *c = f->costs;
+    if (f->groups.cells > 0) {
+        mpz_set(count, f->groups.ahead[cell][(size_t)state]);
+        return;
+    }
     mpz_set_ui(count, 0);
     for (size_t i = 0; i < c->sums[cell].count; i++)
-        if (is_kept(c, before + c->sums[cell].steps[i]))
+        if (is_kept(c, state + c->sums[cell].steps[i]))
             mpz_add(count, count, c->sums[cell].times[i]);
 }
 
 static void count_all(const tn_furnisher *f, mpz_t count)
 {
-    if (f->costs) {
-        count_from(f->costs, 0, 0, count);
+    if (is_counted(f)) {
+        count_from(f, 0, 0, count);
         return;
     }
     mpz_set_ui(count, 1);
@@ -464,21 +565,20 @@ static void count_all(const tn_furnisher *f, mpz_t count)
 }
 
 /* Sets the tiles from a cell on to the combination that `left` kept ones come before, which is there. */
-static void find_from(tn_furnisher *f, size_t cell, tn_int128 before, mpz_t left)
+static void find_from(tn_furnisher *f, size_t cell, tn_int128 state, mpz_t left)
 {
-    const tn_tile_costs *c = f->costs;
     mpz_t here;
     mpz_init(here);
     for (size_t i = cell; i < f->house->cell_count; i++) {
         size_t tile = 0;
         for (; tile + 1 < f->tiles[i]; tile++) {
-            count_from(c, i + 1, before + cost_of(c, i, tile), here);
+            count_from(f, i + 1, next_state(f, i, state, tile), here);
             if (mpz_cmp(left, here) < 0)
                 break;
             mpz_sub(left, left, here);
         }
         f->house->cells[i].variant = tile;
-        before += cost_of(c, i, tile);
+        state = next_state(f, i, state, tile);
     }
     mpz_clear(here);
 }
@@ -487,7 +587,7 @@ void tn_furnish_at(tn_furnisher *f, const mpz_t number)
 {
     mpz_t left;
     mpz_init_set(left, number);
-    if (f->costs)
+    if (is_counted(f))
         find_from(f, 0, 0, left);
     else
         for (size_t i = f->house->cell_count; i-- > 0;)
@@ -496,33 +596,36 @@ void tn_furnish_at(tn_furnisher *f, const mpz_t number)
 }
 
 /* Is there a kept combination with one of the cell's next tiles? Then the tiles are set to the first such. */
-static bool turn(tn_furnisher *f, size_t cell, tn_int128 before)
+static bool turn(tn_furnisher *f, size_t cell, tn_int128 state)
 {
-    const tn_tile_costs *c = f->costs;
     mpz_t count;
     bool found = false;
     mpz_init(count);
     for (size_t tile = f->house->cells[cell].variant + 1; !found && tile < f->tiles[cell]; tile++) {
-        count_from(c, cell + 1, before + cost_of(c, cell, tile), count);
+        count_from(f, cell + 1, next_state(f, cell, state, tile), count);
         found = mpz_sgn(count) > 0;
         f->house->cells[cell].variant = tile;
     }
     mpz_set_ui(count, 0);
     if (found)
-        find_from(f, cell + 1, before + cost_of(c, cell, f->house->cells[cell].variant), count);
+        find_from(f, cell + 1, next_state(f, cell, state, f->house->cells[cell].variant), count);
     mpz_clear(count);
     return found;
 }
 
+/* Of the tiles of a house before a cell. */
+static tn_int128 state_before(const tn_furnisher *f, const tn_house *house, size_t cell)
+{
+    tn_int128 state = 0;
+    for (size_t i = 0; i < cell; i++)
+        state = next_state(f, i, state, house->cells[i].variant);
+    return state;
+}
+
 static bool next_kept(tn_furnisher *f)
 {
-    const tn_tile_costs *c = f->costs;
-    tn_int128 before = 0;
-    for (size_t i = 0; i < f->house->cell_count; i++)
-        before += cost_of(c, i, f->house->cells[i].variant);
     for (size_t i = f->house->cell_count; i-- > 0;) {
-        before -= cost_of(c, i, f->house->cells[i].variant);
-        if (turn(f, i, before))
+        if (turn(f, i, state_before(f, f->house, i)))
             return true;
         f->house->cells[i].variant = 0;
     }
@@ -532,7 +635,7 @@ static bool next_kept(tn_furnisher *f)
 /* The last cell's tile changes first. */
 bool tn_furnish_next(tn_furnisher *f)
 {
-    if (f->costs)
+    if (is_counted(f))
         return next_kept(f);
     for (size_t i = f->house->cell_count; i-- > 0;) {
         if (++f->house->cells[i].variant < f->tiles[i])
@@ -544,32 +647,33 @@ bool tn_furnish_next(tn_furnisher *f)
 
 bool tn_furnish_has(const tn_furnisher *f, const tn_house *house)
 {
-    tn_int128 cost = 0;
-    for (size_t i = 0; f->costs && i < house->cell_count; i++)
-        cost += cost_of(f->costs, i, house->cells[i].variant);
-    return !f->costs || is_kept(f->costs, cost);
+    mpz_t count;
+    if (!is_counted(f))
+        return true;
+    mpz_init(count);
+    count_from(f, house->cell_count, state_before(f, house, house->cell_count), count);
+    bool has = mpz_sgn(count) > 0;
+    mpz_clear(count);
+    return has;
 }
 
-static void count_before(const tn_tile_costs *c, const tn_house *house, mpz_t count)
+static void count_before(const tn_furnisher *f, const tn_house *house, mpz_t count)
 {
-    tn_int128 before = 0;
     mpz_t here;
     mpz_init(here);
-    for (size_t i = 0; i < house->cell_count; i++) {
+    for (size_t i = 0; i < house->cell_count; i++)
         for (size_t tile = 0; tile < house->cells[i].variant; tile++) {
-            count_from(c, i + 1, before + cost_of(c, i, tile), here);
+            count_from(f, i + 1, next_state(f, i, state_before(f, house, i), tile), here);
             mpz_add(count, count, here);
         }
-        before += cost_of(c, i, house->cells[i].variant);
-    }
     mpz_clear(here);
 }
 
 void tn_furnish_before(const tn_furnisher *f, const tn_house *house, mpz_t count)
 {
     mpz_set_ui(count, 0);
-    if (f->costs) {
-        count_before(f->costs, house, count);
+    if (is_counted(f)) {
+        count_before(f, house, count);
         return;
     }
     for (size_t i = 0; i < house->cell_count; i++) {
@@ -583,11 +687,14 @@ tn_status tn_furnish(tn_furnisher *f, tn_house *house, mpq_srcptr cost, mpz_t co
     bool fit = false;
     f->house = house;
     clear_costs(f);
+    tn_tile_groups_clear(&f->groups);
     for (size_t i = 0; i < house->cell_count; i++)
         house->cells[i].variant = 0;
     mpz_set_ui(count, 0);
     tn_status status = count_tiles(f, &fit, error);
-    if (status == TN_OK && fit && (f->prices || cost))
+    if (status == TN_OK && fit && f->walks)
+        status = add_groups(f, cost, error);
+    else if (status == TN_OK && fit && (f->prices || cost))
         status = add_costs(f, cost, error);
     if (status == TN_OK && fit)
         count_all(f, count);
@@ -595,6 +702,23 @@ tn_status tn_furnish(tn_furnisher *f, tn_house *house, mpq_srcptr cost, mpz_t co
 }
 
 /* ==== making */
+
+static bool is_cost(uint32_t kind)
+{
+    return kind == TN_HOUSE_COST;
+}
+
+/* *asks: does one of the clauses? */
+static tn_status find_asking(const tn_furnisher *f, tn_term_asked *asked, bool *asks, tn_error *error)
+{
+    bool *clauses = calloc((size_t)f->library->clause_count + 1, sizeof *clauses);
+    tn_status status =
+        clauses ? tn_clauses_asking(f->form, f->library, asked, clauses, error) : tn_fail_memory(error);
+    for (uint32_t i = 0; status == TN_OK && i < f->library->clause_count; i++)
+        *asks = *asks || clauses[i];
+    free(clauses);
+    return status;
+}
 
 tn_status tn_furnisher_new(const tn_house_form *form, const tn_house_library_record *library, tn_furnisher **out,
                            tn_error *error)
@@ -605,11 +729,13 @@ tn_status tn_furnisher_new(const tn_house_form *form, const tn_house_library_rec
     *f = (tn_furnisher){.form = form, .library = library};
     f->stages = calloc((size_t)library->clause_count + 1, sizeof *f->stages);
     tn_status status = f->stages ? tn_clause_stages(form, library, f->stages, error) : tn_fail_memory(error);
-    for (uint32_t i = 0; status == TN_OK && i < library->clause_count; i++)
-        f->prices = f->prices || f->stages[i] == TN_STAGE_TILES;
+    if (status == TN_OK)
+        status = find_asking(f, is_cost, &f->prices, error);
+    if (status == TN_OK)
+        status = find_asking(f, tn_house_term_of_floors, &f->walks, error);
     if (status == TN_OK)
         status = begin_fits(form, &f->fits, error);
-    if (status == TN_OK && f->prices)
+    if (status == TN_OK && (f->prices || f->walks))
         status = tn_house_rules_new(form, 0, &f->rules, error);
     if (status != TN_OK) {
         tn_furnisher_free(f);
@@ -623,6 +749,8 @@ void tn_furnisher_free(tn_furnisher *f)
     if (!f)
         return;
     clear_costs(f);
+    tn_tile_groups_clear(&f->groups);
+    tn_walk_floors_clear(&f->floors);
     clear_fits(&f->fits);
     tn_house_rules_free(f->rules);
     free(f->stages);
@@ -633,4 +761,14 @@ void tn_furnisher_free(tn_furnisher *f)
 bool tn_furnisher_prices(const tn_furnisher *f)
 {
     return f->prices;
+}
+
+bool tn_furnisher_walks(const tn_furnisher *f)
+{
+    return f->walks;
+}
+
+uint64_t tn_furnisher_asked(const tn_furnisher *f)
+{
+    return f->groups.asked;
 }

@@ -1,4 +1,5 @@
 /* The value of a measure on one house, from what it adds up, and comparisons of such values. */
+#include "runtime/house/form/form.h"
 #include "runtime/house/rule/asked_data.h"
 #include "runtime/house/schedule/cost.h"
 
@@ -32,27 +33,58 @@ static tn_int128 number_of(const tn_house_rules *rules, const tn_house_term_reco
     return number;
 }
 
-/* Adds the terms; what is in parts of the house's cost, to `cost`. */
-static void add_terms(const tn_house_rules *rules, uint32_t first, uint32_t count, mpq_t value, mpq_t cost)
+/* What a number is worth with one term more: if one is below all numbers and another above them, it is nothing. */
+static tn_worth join_worths(tn_worth a, tn_worth b)
+{
+    return a == TN_HAS_WORTH || a == b ? b : b == TN_HAS_WORTH ? a : TN_NO_WORTH;
+}
+
+static tn_worth turned(tn_worth worth)
+{
+    return worth == TN_BELOW_ALL ? TN_ABOVE_ALL : worth == TN_ABOVE_ALL ? TN_BELOW_ALL : worth;
+}
+
+static tn_status add_walked(tn_house_rules *rules, const tn_house_term_record *term, mpq_t value, tn_worth *worth,
+                            tn_error *error)
 {
     const tn_module *module = rules->house->form->module;
+    bool negative = *tn_text(module, term->factor) == '-';
+    tn_walked walked;
+    tn_status status = tn_house_walked(rules, term, &walked, error);
+    if (status != TN_OK)
+        return status;
+    *worth = join_worths(*worth, negative ? turned(walked.worth) : walked.worth);
+    add(value, module, term, walked.number);
+    return TN_OK;
+}
+
+/* Adds the terms; what is in parts of the house's cost, to `cost`. */
+static tn_status add_terms(tn_house_rules *rules, uint32_t first, uint32_t count, mpq_t value, mpq_t cost,
+                           tn_worth *worth, tn_error *error)
+{
+    const tn_module *module = rules->house->form->module;
+    tn_status status = TN_OK;
     mpq_set_ui(cost, 0, 1);
-    for (uint32_t i = 0; i < count; i++) {
+    *worth = TN_HAS_WORTH;
+    for (uint32_t i = 0; status == TN_OK && i < count; i++) {
         const tn_house_term_record *term = &module->HOUSE_TERM_records[first + i];
-        add(term->kind == TN_HOUSE_COST ? cost : value, module, term, number_of(rules, term));
+        if (tn_house_term_of_floors(term->kind))
+            status = add_walked(rules, term, value, worth, error);
+        else
+            add(term->kind == TN_HOUSE_COST ? cost : value, module, term, number_of(rules, term));
     }
+    return status;
 }
 
 tn_status tn_house_rules_measure(tn_house_rules *rules, tn_house_measured measure, mpq_t value, mpq_t cost,
-                                 tn_error *error)
+                                 tn_worth *worth, tn_error *error)
 {
-    bool has; /* measures of houses always have a value */
+    bool has; /* what it has of the plan always has a value */
     tn_status status = tn_rooms_gather(rules, error);
     if (status == TN_OK)
         status = tn_plan_vm_value(rules->vm, measure.sum, value, &has, error);
-    if (status == TN_OK)
-        add_terms(rules, measure.term_first, measure.term_count, value, cost);
-    return status;
+    return status == TN_OK ? add_terms(rules, measure.term_first, measure.term_count, value, cost, worth, error)
+                           : status;
 }
 
 /* ---- comparisons */
@@ -119,7 +151,8 @@ void tn_house_rules_price(tn_house_rules *rules, const mpq_t cost)
     rules->priced = true;
 }
 
-tn_status tn_house_rules_sum(tn_house_rules *rules, uint32_t sum, mpq_t value, bool *costs, tn_error *error)
+tn_status tn_house_rules_sum(tn_house_rules *rules, uint32_t sum, mpq_t value, tn_worth *worth, bool *costs,
+                             tn_error *error)
 {
     const tn_house_sum_record *record = &rules->house->form->module->HOUSE_SUM_records[sum];
     mpq_t cost, all;
@@ -128,7 +161,7 @@ tn_status tn_house_rules_sum(tn_house_rules *rules, uint32_t sum, mpq_t value, b
     if (status == TN_OK)
         status = tn_rooms_gather(rules, error);
     if (status == TN_OK)
-        add_terms(rules, record->term_first, record->term_count, value, cost);
+        status = add_terms(rules, record->term_first, record->term_count, value, cost, worth, error);
     *costs = mpq_sgn(cost) != 0;
     if (status == TN_OK && *costs)
         status = tn_house_rules_cost(rules, all, error);
@@ -138,14 +171,33 @@ tn_status tn_house_rules_sum(tn_house_rules *rules, uint32_t sum, mpq_t value, b
     return status;
 }
 
+static bool compares(uint32_t opcode, int sign)
+{
+    switch (opcode) {
+    case TN_OP_HOUSE_BELOW:
+        return sign < 0;
+    case TN_OP_HOUSE_ZERO:
+        return sign == 0;
+    case TN_OP_HOUSE_ABOVE:
+        return sign > 0;
+    case TN_OP_HOUSE_NOT_BELOW:
+        return sign >= 0;
+    case TN_OP_HOUSE_NOT_ZERO:
+        return sign != 0;
+    default:
+        return sign <= 0;
+    }
+}
+
 tn_status tn_house_compare(tn_house_rules *rules, const tn_instruction *op, bool *so, tn_error *error)
 {
     bool costs;
+    tn_worth worth = TN_NO_WORTH;
     mpq_t value;
     mpq_init(value);
-    tn_status status = tn_house_rules_sum(rules, (uint32_t)op->first, value, &costs, error);
-    int sign = mpq_sgn(value);
-    *so = op->opcode == TN_OP_HOUSE_BELOW ? sign < 0 : op->opcode == TN_OP_HOUSE_ZERO ? sign == 0 : sign > 0;
+    tn_status status = tn_house_rules_sum(rules, (uint32_t)op->first, value, &worth, &costs, error);
+    int sign = worth == TN_BELOW_ALL ? -1 : worth == TN_ABOVE_ALL ? 1 : mpq_sgn(value);
+    *so = worth != TN_NO_WORTH && compares(op->opcode, sign);
     mpq_clear(value);
     return status;
 }

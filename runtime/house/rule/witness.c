@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "runtime/house/form/form.h"
 #include "runtime/house/house.h"
 #include "runtime/house/rule/asked_data.h"
 #include "runtime/module/code.h"
@@ -60,6 +61,38 @@ static tn_status see_walks(const witnessing *w, tn_witness found, const tn_meeti
     return status;
 }
 
+/* The cell that a term's number is of, with its walk. */
+static tn_status see_walked(const witnessing *w, tn_witness found, tn_error *error)
+{
+    tn_walked walked;
+    tn_walk_line *lines = NULL;
+    tn_status status = tn_house_walked(w->rules, found.term, &walked, error);
+    if (status != TN_OK || walked.cell == TN_NO_CELL)
+        return status;
+    found.first = walked.cell;
+    found.number = walked.worth == TN_HAS_WORTH ? walked.number : TN_NO_PATH;
+    if (tn_house_term_walks(found.term->kind))
+        status = tn_house_walk_lines(w->rules, found.term, found.first, &lines, &found.line_count, error);
+    found.lines = lines;
+    if (status == TN_OK)
+        status = w->seen(w->context, &found, error);
+    free(lines);
+    return status;
+}
+
+static tn_status see_terms(const witnessing *w, tn_witness found, uint32_t sum, tn_error *error)
+{
+    const tn_module *module = w->rules->house->form->module;
+    const tn_house_sum_record *record = &module->HOUSE_SUM_records[sum];
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < record->term_count; i++) {
+        found.term = &module->HOUSE_TERM_records[record->term_first + i];
+        if (tn_house_term_of_floors(found.term->kind))
+            status = see_walked(w, found, error);
+    }
+    return status;
+}
+
 static tn_status see_question(const witnessing *w, const tn_instruction *op, uint32_t offset, tn_error *error)
 {
     const tn_module *module = w->rules->house->form->module;
@@ -81,7 +114,7 @@ static tn_status see_question(const witnessing *w, const tn_instruction *op, uin
     case TN_OP_APART:
         return see_walks(w, found, &module->MEETING_records[first], error);
     default:
-        return TN_OK;
+        return tn_code_compares_house((tn_opcode)op->opcode) ? see_terms(w, found, first, error) : TN_OK;
     }
 }
 

@@ -6,13 +6,20 @@
 #define TARTAN_HOUSE_RULE_WITNESS_H
 
 #include "runtime/house/rule/asked.h"
+#include "runtime/house/walk/walk.h"
 
 /* One thing that a question finds, or (first: TN_NO_CELL) the question before the first of them. SOME_CELL, CELLS,
  * AREAS: the cell `first`. SOME_ROOM, ROOMS: the room whose lowest cell that is. MEETS: the face `face`. APART: the
- * walk from `first` comes only to the cells `reached`. offset: of the question in the code. */
+ * walk from `first` comes only to the cells `reached`. HOUSE_BELOW and the like: the cell whose walk or ways out a term
+ * is about (a HOUSE_TERM), so long or so many; `lines` are that walk. number: TN_NO_PATH if the cell has no walk. offset:
+ * of the question in the code. */
 typedef struct tn_witness {
     uint32_t opcode, offset, first, face;
     const bool *reached; /* [cell] */
+    const tn_house_term_record *term;
+    int64_t number;
+    const tn_walk_line *lines;
+    size_t line_count;
 } tn_witness;
 
 typedef tn_status tn_witness_seen(void *context, const tn_witness *witness, tn_error *error);

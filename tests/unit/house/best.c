@@ -66,6 +66,7 @@ static tn_status list_house(void *context, const tn_house *house, bool *stop, tn
         return TN_OK;
     }
     listed *one = &c->houses[c->count++];
+    tn_worth worth;
     mpq_t cost, whole;
     mpq_inits(cost, whole, NULL);
     if (tn_form_has_costs(house->form))
@@ -76,7 +77,7 @@ static tn_status list_house(void *context, const tn_house *house, bool *stop, tn
     assert_int_equal(tn_house_rules_start(c->rules, house, error), TN_OK);
     for (uint32_t k = 0; k < MEASURES; k++) {
         mpq_init(one->values[k]);
-        assert_int_equal(tn_house_rules_measure(c->rules, c->measures.of[k]->of, one->values[k], cost, error), TN_OK);
+        assert_int_equal(tn_house_rules_measure(c->rules, c->measures.of[k]->of, one->values[k], cost, &worth, error), TN_OK);
         mpq_mul(cost, cost, whole);
         mpq_add(one->values[k], one->values[k], cost);
         if (c->measures.most[k])

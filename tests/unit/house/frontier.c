@@ -300,10 +300,11 @@ typedef struct tally {
 static tn_status tally_house(void *context, const tn_house *house, bool *stop, tn_error *error)
 {
     tally *t = context;
+    tn_worth worth;
     mpq_t value, cost;
     mpq_inits(value, cost, NULL);
     assert_int_equal(tn_house_rules_start(t->rules, house, error), TN_OK);
-    assert_int_equal(tn_house_rules_measure(t->rules, t->measure, value, cost, error), TN_OK);
+    assert_int_equal(tn_house_rules_measure(t->rules, t->measure, value, cost, &worth, error), TN_OK);
     assert_int_equal(mpq_sgn(cost), 0);
     size_t i = 0;
     while (i < t->count && !mpq_equal(t->values[i], value))

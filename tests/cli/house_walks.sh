@@ -1,0 +1,135 @@
+#!/usr/bin/env bash
+# Walks and ways out: a nanometre decides; cells without a walk meet no bound, and where there are no such cells all do that have a `most`;
+# what is said of single houses; houses on one plan are counted, listed, ranked and varied by them, those on all plans are not.
+# Slow under sanitizers.
+name=house_walks
+. "$(dirname "$0")/golden.bash"
+cd "$scratch"
+
+# A row of two rooms, 3 m each, with a door between them; the only door out is at the left. In the second room one walks from its door to
+# nothing: its walk is through the first room, which is clear from 100 mm to 2950 mm, and has its doors in the middle of both ends.
+form() {
+    cat <<PLAN
+schema row { width role length = 3m | 4m  zone house role band = space(4m) }
+form f of row {
+  storey ground 2.7m
+  wall 200mm
+  partition 100mm
+  deck 300mm
+  roof 200mm
+  way 800mm
+  function first at cell(3m)
+  function second at cell(4m)
+  opening door wide 900mm high 2m passage sliding
+  opening hatch wide 900mm high 2m passage sliding
+  face cell(any) beside cell(any) = door | hatch | wall
+  face cell(first) outside left = door
+  face cell(any) outside = wall
+}
+library rows using row { trays 1..3 }
+library all from rows in f { }
+library asked from rows in f { $1 }
+PLAN
+}
+count() { # CLAUSE PLAN: how many houses on the plan are kept
+    form "$1" >asked.plan
+    "$TARTAN" count asked.plan --library asked --plan "$2" 2>/dev/null | awk '/^houses/ {print $2}'
+}
+two='3m space:4m | 4m space:4m'
+# One comes in at x = 100 mm and goes on at x = 2950 mm: 2850 mm, straight on.
+is 'all' "$(count '' "$two")" 3
+is 'as long as it is' "$(count 'require walk(cell(second), to outside) <= 2.85m' "$two")" 2
+is 'a nanometre less' "$(count 'require walk(cell(second), to outside) <= 2849.999999mm' "$two")" 0
+is 'a nanometre more' "$(count 'require walk(cell(second), to outside) >= 2850.000001mm' "$two")" 0
+is 'at least' "$(count 'require walk(cell(second), to outside) >= 2.85m' "$two")" 2
+is 'in a range' "$(count 'require walk(cell(second), to outside) in 2.85m..3m' "$two")" 2
+is 'another number' "$(count 'require walk(cell(second), to outside) != 3m' "$two")" 2
+is 'without a walk no bound is met' "$(count 'require walk(cell(second), to outside) > 0m or walk(cell(second), to outside) <= 99m' "$two")" 2
+is 'not' "$(count 'require not walk(cell(second), to outside) <= 99m' "$two")" 1
+is 'they share a door' "$(count 'require walk(cell(second), to cell(first)) = 0m' "$two")" 2
+is 'by one kind' "$(count 'require walk(cell(second), to cell(first), by hatch) <= 0m' "$two")" 1
+is 'by the other all the way' "$(count 'require walk(cell(second), to outside, by door) <= 3m' "$two")" 1
+is 'through none' "$(count 'require walk(cell(second), to outside, through cell(second)) <= 99m' "$two")" 0
+is 'the other order' "$(count 'require walk(cell(second), to outside, by door, through cell(first)) <= 3m' "$two")" 1
+is 'of all cells' "$(count 'require walk(cell(any), to outside) <= 2.85m' "$two")" 2
+is 'of the nearest' "$(count 'require least walk(cell(any), to outside) <= 0m' "$two")" 2
+is 'no such cells: below all bounds' "$(count 'require walk(cell(second), to outside) <= 1m' '3m space:4m')" 1
+is 'and above none' "$(count 'require walk(cell(second), to outside) >= 0m' '3m space:4m')" 0
+is 'the least of none is above all' "$(count 'require least walk(cell(second), to outside) > 99m' '3m space:4m')" 1
+is 'ways out' "$(count 'require exits(cell(second)) = 1' "$two")" 2
+is 'none' "$(count 'require exits(cell(second)) = 0' "$two")" 1
+is 'two' "$(count 'require exits(cell(any)) >= 2' "$two")" 0
+is 'with a number of cells' "$(count 'require walk(cell(second), to outside) + 1m * quantity(cell(first)) = 3.85m' "$two")" 2
+
+# Numbers on the plan; names both ways; the same at one thread and at four.
+form 'require walk(cell(second), to outside) <= 3m' >asked.plan
+is 'listed' "$("$TARTAN" enumerate asked.plan --library asked --plan "$two" | wc -l)" 2
+"$TARTAN" enumerate asked.plan --library asked --plan "$two" >listed
+is 'a house of its name' "$("$TARTAN" house asked.plan '#3:1' --library asked)" "$(sed -n 2p listed)"
+is 'its name' "$("$TARTAN" rank asked.plan --library asked "$(sed -n 2p listed)")" '#3:1'
+is 'drawn by chance' "$("$TARTAN" sample asked.plan 5 --library asked --plan "$two" 2>/dev/null | sort)" "$(sort listed)"
+for command in 'count asked.plan --library asked' 'sample asked.plan 2 --library asked' 'enumerate asked.plan --library asked' "house asked.plan #3 --library asked"; do
+    if "$TARTAN" $command >/dev/null 2>said; then fail "$command is not refused"; fi
+    grep -q 'E1687' said || fail "$command: $(head -1 said)"
+done
+
+# Tiles that stand in the way, in groups, with what they cost: those that are kept by both numbers, and by the one and not the other.
+cat >furnished.plan <<'PLAN'
+schema row { width role length = 4m  zone house role band = space(5m) }
+form f of row {
+  storey ground 2.7m
+  wall 200mm
+  partition 100mm
+  deck 300mm
+  roof 200mm
+  way 700mm
+  function room at cell(any)
+  opening door wide 900mm high 2m passage sliding
+  face cell(any) beside cell(any) = door
+  face cell(any) outside left = door
+  face cell(any) outside = wall
+  tile rooms for room { against wall  item table left 1m..2m, back 1.5m..3m  item stool left 0..300mm, back 0..300mm }
+  tile benches for room { against wall  item bench left 300mm..2m, back 0..400mm }
+  tile shelves for room { item shelf left 0..right 0, back 0..300mm, up 0..1m }
+  material pine "#c0a080" price 100 per m2 for table, shelf
+  material oak "#806040" price 75.50 per each for bench
+}
+library rows using row { trays 1..2 }
+library all from rows in f { }
+library near from rows in f { require walk(cell(any), to outside) <= 3.9m }
+library cheap from rows in f { require walk(cell(any), to outside) <= 3.9m, sum(cost) <= 230 }
+library dear from rows in f { require walk(cell(any), to outside) <= 3.9m, sum(cost) > 230 }
+library twice from rows in f { require walk(cell(any), to outside) / 1m + sum(cost) / 1000 <= 4.075 }
+PLAN
+two='4m space:5m | 4m space:5m'
+of() { "$TARTAN" count furnished.plan --library "$1" --plan "$two" | awk '/^houses/ {print $2}'; }
+[ "$(of near)" -lt "$(of all)" ] && [ "$(of cheap)" -gt 0 ] && [ "$(of dear)" -gt 0 ] || fail "few kinds of houses: $(of near) of $(of all), $(of cheap) cheap, $(of dear) dear"
+is 'cheap or dear' "$(($(of cheap) + $(of dear)))" "$(of near)"
+for library in near cheap twice; do
+    "$TARTAN" enumerate furnished.plan --library all --plan "$two" >all
+    "$TARTAN" enumerate furnished.plan --library $library --plan "$two" >some
+    is "$library: one by one" "$(while read -r line; do "$TARTAN" explain furnished.plan "$line" --library $library | grep -q keeps && echo "$line"; done <all)" "$(<some)"
+    is "$library: as many" "$(wc -l <some)" "$(of $library)"
+    k=$(($(wc -l <some) / 2))
+    is "$library: by its number" "$("$TARTAN" house furnished.plan "#1:$k" --library $library)" "$(sed -n $((k + 1))p some)"
+done
+
+# What is said.
+two='3m space:4m | 4m space:4m'
+cp asked.plan walked.plan
+golden explained "tartan explain $scratch/walked.plan '$two ; - ; first | second ; wall' --library asked"
+"$TARTAN" explain walked.plan "$two ; - ; first | second ; door" --library asked --full -o why.svg
+is 'drawn, as a line' "$(grep -c 'stroke="#143399"' why.svg)" 1
+golden kept "tartan explain $scratch/walked.plan '$two ; - ; first | second ; door' --library asked --full"
+form 'require exits(cell(second)) >= 2, walk(cell(second), to outside) <= 2m' >walked.plan
+golden dropped "tartan explain $scratch/walked.plan '$two ; - ; first | second ; door' --library asked"
+form 'prune walk(cell(second), to outside) > 3m as far' >walked.plan
+golden varied "tartan vary $scratch/walked.plan '$two ; - ; first | second ; door' --library asked"
+cat >>walked.plan <<'PLAN'
+measure longest = walk(cell(any), to outside)
+measure ways = exits(cell(any))
+test longest { value [3m space:4m | 4m space:4m ; - ; first | second ; door] = 2.85m  value [3m space:4m | 4m space:4m ; - ; first | second ; wall] = 2.85m }
+test ways { value [3m space:4m | 4m space:4m ; - ; first | second ; door] = 1 }
+PLAN
+golden tested "tartan test $scratch/walked.plan"
+finish

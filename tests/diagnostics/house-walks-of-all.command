@@ -1,0 +1,1 @@
+count house-walks-of-all.plan --library short
