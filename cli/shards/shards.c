@@ -271,7 +271,7 @@ static void tell(tn_job *job, const tn_shards_done *done)
                     : done->out_of_time ? ": time is up"
                                         : "");
     else if (done->written == 0)
-        tn_job_note(job, "all shards%s are there already", asked);
+        tn_job_note(job, "all shards%s are there already; `tartan shards check` reads whether they are whole", asked);
     else
         tn_job_note(job, "%u shard%s written; all%s are there", done->written, plural, asked);
     if (done->unread > 0)

@@ -5,28 +5,7 @@
 
 #include "cli/common/job.h"
 #include "cli/common/options.h"
-
-static const struct {
-    uint32_t code;
-    const char *summary;
-} codes[] = {
-#define ERROR(NUMBER, NAME, SUMMARY) {NUMBER, SUMMARY},
-#define WARNING(NUMBER, NAME, SUMMARY) {10000 + NUMBER, SUMMARY},
-#include "runtime/base/codes.def"
-#undef ERROR
-#undef WARNING
-};
-
-enum { CODES = sizeof codes / sizeof *codes };
-
-static const struct {
-    uint32_t code;
-    const char *text;
-} examples[] = {
-#define EXAMPLE(CODE, TEXT) {CODE, TEXT},
-#include "code_examples.def"
-#undef EXAMPLE
-};
+#include "cli/source/codes.h"
 
 /* "e304", "E0304", "[E0304]", "304" -> "E0304"; a text that has no such form is only made capital. */
 static void spell(const char *word, char *name, size_t size)
@@ -47,29 +26,32 @@ static void spell(const char *word, char *name, size_t size)
         snprintf(name, size, "%.30s", word);
 }
 
-/* Its place among the codes; CODES where it is none. */
-static size_t find(const char *name)
+/* NULL if there is no such code. */
+static const tn_code_row *find(const char *name)
 {
-    size_t i = 0;
-    char other[8];
-    for (; i < CODES; i++) {
-        tn_code_name(codes[i].code, other);
+    size_t count;
+    const tn_code_row *rows = tn_code_rows(&count);
+    for (size_t i = 0; i < count; i++) {
+        char other[8];
+        tn_code_name(rows[i].code, other);
         if (strcmp(other, name) == 0)
-            break;
+            return &rows[i];
     }
-    return i;
+    return NULL;
 }
 
 static void report_unknown(tn_job *job, const char *word, const char *name)
 {
     static const char *const list = "docs/errors.md";
-    char(*names)[8] = calloc(CODES, sizeof *names);
-    const char **pointers = calloc(CODES, sizeof *pointers);
-    for (size_t i = 0; names && pointers && i < CODES; i++) {
-        tn_code_name(codes[i].code, names[i]);
+    size_t count;
+    const tn_code_row *rows = tn_code_rows(&count);
+    char(*names)[8] = calloc(count, sizeof *names);
+    const char **pointers = calloc(count, sizeof *pointers);
+    for (size_t i = 0; names && pointers && i < count; i++) {
+        tn_code_name(rows[i].code, names[i]);
         pointers[i] = names[i];
     }
-    const char *near = names && pointers ? tn_nearest(name, pointers, CODES) : NULL;
+    const char *near = names && pointers ? tn_nearest(name, pointers, count) : NULL;
     tn_diagnostic *d = tn_job_usage(job, "there is no error or warning `%.60s`", word);
     if (near)
         tn_help(tn_job_diagnostics(job), d, "did you mean `%s`?", near);
@@ -80,17 +62,15 @@ static void report_unknown(tn_job *job, const char *word, const char *name)
     free(names);
 }
 
-static void explain(size_t index, FILE *out)
+static bool explain(const tn_code_row *row, FILE *out)
 {
-    char name[8];
-    bool warning = codes[index].code >= 10000;
-    tn_code_name(codes[index].code, name);
-    fprintf(out, "%s: %s\n", name, codes[index].summary);
-    for (size_t i = 0; i < sizeof examples / sizeof *examples; i++)
-        if (examples[i].code == codes[index].code)
-            fprintf(out, "\nFor example:\n\n%s", examples[i].text);
-    if (warning)
-        fprintf(out, "\nWhere it is meant, write `allow %s` before a rule's `=`, or as a line of a library.\n", name);
+    tn_buffer text = {0};
+    tn_code_explain(row, &text);
+    bool good = !text.failed;
+    if (good)
+        fwrite(text.data, 1, text.size, out);
+    free(text.data);
+    return good;
 }
 
 static int run(const tn_command *command, const tn_settings *common)
@@ -103,13 +83,15 @@ static int run(const tn_command *command, const tn_settings *common)
         for (size_t i = 0, shown = 0; i < common->operands.count; i++) {
             char name[32];
             spell(common->operands.items[i], name, sizeof name);
-            size_t index = find(name);
-            if (index == CODES) {
+            const tn_code_row *row = find(name);
+            if (!row) {
                 report_unknown(&job, common->operands.items[i], name);
                 continue;
             }
             fputs(shown++ ? "\n" : "", output.stream);
-            explain(index, output.stream);
+            tn_error error;
+            if (!explain(row, output.stream) && tn_fail_memory(&error))
+                tn_job_fail(&job, &error);
         }
         tn_job_commit(&job, &output);
     }

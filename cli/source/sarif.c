@@ -2,23 +2,16 @@
 #include "cli/source/sarif.h"
 
 #include <ctype.h>
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include <xxhash.h>
+
+#include "cli/source/codes.h"
 #include "runtime/base/array.h"
 
 #define SCHEMA_URI "https://json.schemastore.org/sarif-2.1.0.json"
-
-static const struct {
-    uint32_t code;
-    const char *summary;
-} summaries[] = {
-#define ERROR(NUMBER, NAME, SUMMARY) {NUMBER, SUMMARY},
-#define WARNING(NUMBER, NAME, SUMMARY) {10000 + NUMBER, SUMMARY},
-#include "runtime/base/codes.def"
-#undef ERROR
-#undef WARNING
-};
 
 /* Results are a list in a run, in the list of runs, in the log. */
 enum { RESULTS_DEPTH = 4 };
@@ -150,6 +143,32 @@ static void message_json(tn_json *json, const tn_diagnostic *item)
     free(text.data);
 }
 
+/* What a finding is known again by after an edit elsewhere in its file: its code, the text of its line, and how many
+ * such findings came before. */
+static void fingerprint_json(tn_sarif *sarif, const tn_diagnostics *list, const tn_diagnostic *item)
+{
+    tn_json *json = &sarif->json;
+    tn_place place = tn_sources_place(list->sources, item->span);
+    const char *text = place.line_text;
+    size_t size = place.line_size, before = 0;
+    for (; size > 0 && isspace((unsigned char)*text); size--)
+        text++;
+    while (size > 0 && isspace((unsigned char)text[size - 1]))
+        size--;
+    uint64_t line = XXH3_64bits_withSeed(text, size, item->code);
+    for (size_t i = 0; i < sarif->line_count; i++)
+        before += sarif->lines[i] == line;
+    if (tn_array_reserve(&sarif->lines, &sarif->line_capacity, sarif->line_count, 1, sizeof *sarif->lines))
+        sarif->lines[sarif->line_count++] = line;
+    else
+        sarif->results.failed = true;
+    char written[48];
+    snprintf(written, sizeof written, "%016" PRIx64 ":%zu", line, before + 1);
+    tn_json_object(json, "partialFingerprints");
+    tn_json_string(json, "tartanLine/v1", written);
+    tn_json_object_end(json);
+}
+
 static void add(tn_sarif *sarif, const tn_diagnostics *list, const tn_diagnostic *item)
 {
     static const char *const levels[] = {[TN_NOTE] = "note", [TN_WARNING] = "warning", [TN_ERROR] = "error"};
@@ -166,6 +185,7 @@ static void add(tn_sarif *sarif, const tn_diagnostics *list, const tn_diagnostic
         tn_json_list(json, "locations");
         location_json(json, list->sources, item->span, NULL);
         tn_json_list_end(json);
+        fingerprint_json(sarif, list, item);
     }
     related_json(json, list, item);
     if (placed && item->replacement)
@@ -191,50 +211,57 @@ void tn_sarif_clear(tn_sarif *sarif)
 {
     free(sarif->results.data);
     free(sarif->rules);
+    free(sarif->lines);
     *sarif = (tn_sarif){0};
 }
 
 /* ---- the log */
 
-static void rule_json(tn_json *json, uint32_t code)
+/* False: out of memory. */
+static bool rule_json(tn_json *json, uint32_t code)
 {
-    const char *summary = "";
+    const tn_code_row *row = tn_code_row_of(code);
+    tn_buffer help = {0};
     char name[8];
     tn_code_name(code, name);
-    for (size_t k = 0; k < sizeof summaries / sizeof *summaries; k++)
-        if (summaries[k].code == code)
-            summary = summaries[k].summary;
+    if (row)
+        tn_code_explain(row, &help);
     tn_json_object(json, NULL);
     tn_json_string(json, "id", name);
-    text_json(json, "shortDescription", summary);
+    text_json(json, "shortDescription", row ? row->summary : "");
+    text_json(json, "help", help.data);
+    free(help.data);
     tn_json_object(json, "defaultConfiguration");
     tn_json_string(json, "level", code >= 10000 ? "warning" : "error");
     tn_json_object_end(json);
     tn_json_object_end(json);
+    return !help.failed;
 }
 
-static void tool_json(tn_json *json, const tn_sarif *sarif)
+static bool tool_json(tn_json *json, const tn_sarif *sarif)
 {
+    bool good = true;
     tn_json_object(json, "tool");
     tn_json_object(json, "driver");
     tn_json_string(json, "name", "tartan");
     tn_json_string(json, "version", TARTAN_VERSION);
     tn_json_list(json, "rules");
     for (size_t i = 0; i < sarif->rule_count; i++)
-        rule_json(json, sarif->rules[i]);
+        good = rule_json(json, sarif->rules[i]) && good;
     tn_json_list_end(json);
     tn_json_object_end(json);
     tn_json_object_end(json);
+    return good;
 }
 
-static void log_json(tn_json *json, const tn_sarif *sarif)
+static bool log_json(tn_json *json, const tn_sarif *sarif)
 {
     tn_json_object(json, NULL);
     tn_json_string(json, "$schema", SCHEMA_URI);
     tn_json_string(json, "version", "2.1.0");
     tn_json_list(json, "runs");
     tn_json_object(json, NULL);
-    tool_json(json, sarif);
+    bool good = tool_json(json, sarif);
     tn_json_string(json, "columnKind", "unicodeCodePoints");
     tn_json_list(json, "results");
     tn_json_written(json, sarif->results.data, sarif->results.size);
@@ -243,6 +270,7 @@ static void log_json(tn_json *json, const tn_sarif *sarif)
     tn_json_list_end(json);
     tn_json_object_end(json);
     tn_json_end_line(json);
+    return good;
 }
 
 tn_status tn_sarif_write(const tn_sarif *sarif, const char *path, tn_error *error)
@@ -252,6 +280,8 @@ tn_status tn_sarif_write(const tn_sarif *sarif, const char *path, tn_error *erro
     if (status != TN_OK)
         return status;
     tn_json json = tn_json_file(output.stream, TN_JSON_LINES);
-    log_json(&json, sarif);
-    return tn_output_commit(&output, error);
+    if (log_json(&json, sarif))
+        return tn_output_commit(&output, error);
+    tn_output_discard(&output);
+    return tn_fail_memory(error);
 }

@@ -12,6 +12,8 @@ typedef struct tn_sarif {
     tn_json json;    /* writes them, as they come */
     uint32_t *rules; /* the codes of those that they are about */
     size_t rule_count, rule_capacity;
+    uint64_t *lines; /* hashes of what each finding is known again by */
+    size_t line_count, line_capacity;
 } tn_sarif;
 
 void tn_sarif_begin(tn_sarif *sarif);

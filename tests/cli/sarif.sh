@@ -51,9 +51,12 @@ def check(path):
     ids = [rule["id"] for rule in driver["rules"]]
     assert len(set(ids)) == len(ids)
     for rule in driver["rules"]:
+        assert rule["help"]["text"].startswith(rule["id"] + ": " + rule["shortDescription"]["text"])
         assert rule["shortDescription"]["text"] and rule["defaultConfiguration"]["level"] in ("error", "warning")
     for result in run["results"]:
         check_result(result, ids)
+    marks = [result["partialFingerprints"]["tartanLine/v1"] for result in run["results"] if result.get("locations")]
+    assert len(set(marks)) == len(marks)
     print(len(run["results"]), len(ids))
 
 
@@ -73,6 +76,20 @@ for file in "$scratch"/*.hemls "$scratch"/*.bnf "$scratch"/*.field "$scratch"/*.
     "$TARTAN" check "$file" --sarif "$file.sarif" >/dev/null 2>&1 || true
 done
 valid "$scratch"/*.{hemls,bnf,field,solid}.sarif >/dev/null
+
+# A line more above does not change what a finding is known by; another line text does.
+marks() { python3 -c 'import json, sys
+for result in json.load(open(sys.argv[1]))["runs"][0]["results"]:
+    print(result["ruleId"], result["partialFingerprints"]["tartanLine/v1"])' "$1"; }
+printf 'schema s { w = 1m | 2m }\nrule a = tray(3m)\nrule b = tray(3m)\nrule a = tray(1m)\n' >"$scratch/before.plan"
+{ printf '# a line more\n'; cat "$scratch/before.plan"; } >"$scratch/after.plan"
+sed 's/rule b = tray(3m)/rule b = tray(4m)/' "$scratch/before.plan" >"$scratch/other.plan"
+for file in before after other; do
+    "$TARTAN" check "$scratch/$file.plan" --sarif "$scratch/$file.sarif" >/dev/null 2>&1 || true
+    marks "$scratch/$file.sarif" >"$scratch/$file.marks"
+done
+cmp -s "$scratch/before.marks" "$scratch/after.marks" || fail "findings are not known again after an edit above: $(diff "$scratch/before.marks" "$scratch/after.marks")"
+is 'changed marks' "$(comm -3 <(sort "$scratch/before.marks") <(sort "$scratch/other.marks") | wc -l)" 2
 
 printf 'schema s "\303\251t\303\251" { w = 1m | 2m }  rule a = tray(3m)\n' >"$scratch/a b\303\251.plan"
 printf 'schema s "\303\251t\303\251" { w = 1m | 2m }  rule a = tray(3m)\n' >"$scratch/accents.plan"
