@@ -19,9 +19,9 @@ read_back "$scratch/meanings.dxf" INSERT=17 HATCH=7 DIMENSION=5 LWPOLYLINE=8
 "$TARTAN" draw "$files/sheds.plan" --library sheds --sample 5 --seed 1 -o "$scratch/table.dxf" || fail 'table.dxf is not drawn'
 read_back "$scratch/feet.dxf" LWPOLYLINE=50
 read_back "$scratch/iso.dxf" LWPOLYLINE=50
-read_back "$scratch/table.dxf" LINE=16
+read_back "$scratch/table.dxf" TEXT=49
 "$TARTAN" house "$files/cabins.plan" "#10:77" -o "$scratch/house.dxf" || fail "house.dxf is not written"
-read_back "$scratch/house.dxf" DIMENSION=10 HATCH=2 LINE=100
+read_back "$scratch/house.dxf" DIMENSION=10 HATCH=2 LWPOLYLINE=20
 refused() {
     local words=$1
     shift

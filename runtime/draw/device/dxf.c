@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "runtime/base/array.h"
+#include "runtime/draw/device/chains.h"
 #include "runtime/draw/device/dxf_file.h"
 #include "runtime/draw/device/lettering.h"
 #include "runtime/math/elementary.h"
@@ -292,9 +293,8 @@ static bool stroke_polyline(dxf *d, bool closed, const tn_pen *pen, const tn_ink
     return true;
 }
 
-static tn_status stroke(tn_device *device, const tn_drawn_path *path, const tn_pen *pen, const tn_ink *ink)
+static bool stroke_path(dxf *d, const tn_drawn_path *path, const tn_pen *pen, const tn_ink *ink)
 {
-    dxf *d = (dxf *)device;
     bool fine = true, closed;
     for (size_t i = 0, end; fine && i < path->count; i = end) {
         end = collect(d, path, i, &closed, &fine);
@@ -307,7 +307,20 @@ static tn_status stroke(tn_device *device, const tn_drawn_path *path, const tn_p
         else
             fine = stroke_polyline(d, closed, pen, ink);
     }
-    return fine ? outcome(d) : TN_MEMORY;
+    return fine;
+}
+
+static tn_status stroke(tn_device *device, const tn_drawn_path *path, const tn_pen *pen, const tn_ink *ink)
+{
+    dxf *d = (dxf *)device;
+    tn_drawn_step *steps;
+    size_t count;
+    tn_status status = tn_chains_join(path, &steps, &count);
+    const tn_drawn_path joined = {steps, count, path->even_odd};
+    if (status == TN_OK)
+        status = stroke_path(d, &joined, pen, ink) ? outcome(d) : TN_MEMORY;
+    free(steps);
+    return status;
 }
 
 /* ---- hatches */

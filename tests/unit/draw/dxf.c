@@ -113,6 +113,39 @@ static void draws_arcs(void **state)
     free(written);
 }
 
+static void trace(const drawing *d, double x0, double y0, double x1, double y1)
+{
+    tn_paint_move_to(d->paint, x0 * MM, (50 - y0) * MM);
+    tn_paint_line_to(d->paint, x1 * MM, (50 - y1) * MM);
+}
+
+/* Lines that end where exactly one other does are one polyline, a ring is closed; of three that meet, none is joined.
+ */
+static void joins_lines(void **state)
+{
+    (void)state;
+    drawing d;
+    begin_plain(&d);
+    trace(&d, 20, 10, 10, 10); /* a ring, in no order */
+    trace(&d, 10, 20, 20, 20);
+    trace(&d, 20, 10, 20, 20);
+    trace(&d, 10, 20, 10, 10);
+    trace(&d, 40, 10, 50, 10); /* a chain of two */
+    trace(&d, 50, 20, 50, 10);
+    trace(&d, 70, 10, 80, 10); /* a star */
+    trace(&d, 70, 10, 70, 20);
+    trace(&d, 70, 10, 60, 10);
+    tn_paint_stroke(d.paint);
+    char *written = end(&d);
+    holds(written, "AcDbPolyline\n90\n3\n70\n0\n10\n40.0\n20\n10.0\n10\n50.0\n20\n10.0\n10\n50.0\n20\n20.0\n");
+    holds(written,
+          "AcDbPolyline\n90\n4\n70\n1\n10\n20.0\n20\n10.0\n10\n10.0\n20\n10.0\n10\n10.0\n20\n20.0\n10\n20.0\n20\n"
+          "20.0\n");
+    assert_int_equal(count(written, "0\nLWPOLYLINE\n"), 2);
+    assert_int_equal(count(written, "0\nLINE\n"), 3);
+    free(written);
+}
+
 /* What is white or can be seen through covers something elsewhere, and is left out here. */
 static void fills_solidly(void **state)
 {
@@ -319,15 +352,11 @@ static void has_handles_once(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(draws_lines),
-        cmocka_unit_test(draws_arcs),
-        cmocka_unit_test(fills_solidly),
-        cmocka_unit_test(stands_in_model_space),
-        cmocka_unit_test(names_layers_by_profile),
-        cmocka_unit_test(inserts_symbols),
-        cmocka_unit_test(writes_dimensions),
-        cmocka_unit_test(writes_texts),
-        cmocka_unit_test(has_handles_once),
+        cmocka_unit_test(draws_lines),           cmocka_unit_test(draws_arcs),
+        cmocka_unit_test(joins_lines),           cmocka_unit_test(fills_solidly),
+        cmocka_unit_test(stands_in_model_space), cmocka_unit_test(names_layers_by_profile),
+        cmocka_unit_test(inserts_symbols),       cmocka_unit_test(writes_dimensions),
+        cmocka_unit_test(writes_texts),          cmocka_unit_test(has_handles_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
