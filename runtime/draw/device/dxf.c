@@ -405,7 +405,10 @@ static tn_status hatch(tn_device *device, const tn_drawn_path *path, const tn_ha
     begin(d, "HATCH");
     if (!put_pen(d, pen, ink) || !begin_hatch(d, path, tn_hatch_name(hatched->hatch), false))
         return TN_MEMORY;
-    tn_buffer_printf(d->now.entities, "52\n0.0\n41\n1.0\n77\n0\n78\n%zu\n", count);
+    tn_buffer_printf(d->now.entities, "52\n0.0\n");
+    tn_dxf_put(d->now.entities, 41,
+               hatched->scale * lines->apart * d->now.by.scale / (d->content.options.feet ? 0.125 : 3.175));
+    tn_buffer_printf(d->now.entities, "77\n0\n78\n%zu\n", count);
     for (size_t i = 0; i < count; i++)
         put_hatch_lines(d, hatched, &lines[i]);
     end_hatch(d);

@@ -111,6 +111,43 @@ static void put_variable(tn_buffer *to, const char *name, int code, int value)
     tn_buffer_printf(to, "9\n$%s\n%d\n%d\n", name, code, value);
 }
 
+static void put_length(tn_buffer *to, const char *name, double length)
+{
+    tn_buffer_printf(to, "9\n$%s\n", name);
+    tn_dxf_put(to, 40, length);
+}
+
+/* The height of capitals in dimensions, on paper. */
+static double dimension_text(const tn_dxf_content *c)
+{
+    return c->dimension_text > 0 ? c->dimension_text : 1.8 / 25.4 * 72 * tn_dxf_paper_unit(&c->options);
+}
+
+static double dimension_factor(const tn_dxf_content *c)
+{
+    return c->options.feet || c->measure == TN_DXF_MILLIMETRES ? 1 : 0.001;
+}
+
+/* The style of dimensions once more: some programs (LibreCAD) know no other. */
+static void put_dimension_variables(tn_buffer *to, const tn_dxf_content *c)
+{
+    double text = dimension_text(c);
+    put_length(to, "DIMSCALE", c->options.scale > 0 ? c->options.scale : 1);
+    put_length(to, "DIMTXT", text);
+    put_length(to, "DIMASZ", text);
+    put_length(to, "DIMEXO", 0.55 * text);
+    put_length(to, "DIMEXE", 0.4 * text);
+    put_length(to, "DIMTSZ", 0.4 * text);
+    put_length(to, "DIMGAP", 0.4 * text);
+    put_length(to, "DIMLFAC", dimension_factor(c));
+    put_variable(to, "DIMLUNIT", 70, c->options.feet ? 4 : 2);
+    put_variable(to, "DIMDEC", 70, c->options.feet ? 4 : 3);
+    put_variable(to, "DIMZIN", 70, c->options.feet ? 0 : 8);
+    put_variable(to, "DIMTAD", 70, 1);
+    put_variable(to, "DIMTIH", 70, 0);
+    put_variable(to, "DIMTOH", 70, 0);
+}
+
 static void put_corner(tn_buffer *to, const char *name, const tn_dxf_box *box, bool high, bool flat)
 {
     const double *at = high ? box->high : box->low;
@@ -135,6 +172,7 @@ static void put_header(tn_buffer *to, const tn_dxf_content *c)
     put_variable(to, "LWDISPLAY", 290, 1);
     put_variable(to, "PSLTSCALE", 70, 0);
     put_variable(to, "TILEMODE", 70, 1);
+    put_dimension_variables(to, c);
     put_corner(to, "EXTMIN", &c->model_box, false, false);
     put_corner(to, "EXTMAX", &c->model_box, true, false);
     put_corner(to, "LIMMIN", &c->model_box, false, true);
@@ -250,7 +288,7 @@ static void put_styles(tn_buffer *to)
 static void put_dimension_style(tn_buffer *to, const tn_dxf_content *c)
 {
     bool feet = c->options.feet;
-    double text = c->dimension_text > 0 ? c->dimension_text : 1.8 / 25.4 * 72 * tn_dxf_paper_unit(&c->options);
+    double text = dimension_text(c);
     begin_table(to, "DIMSTYLE", DIMSTYLE_TABLE, 1);
     tn_buffer_printf(to, "100\nAcDbDimStyleTable\n");
     begin_entry(to, "DIMSTYLE", "AcDbDimStyleTableRecord", DIMENSION_STYLE, DIMSTYLE_TABLE);
@@ -261,7 +299,7 @@ static void put_dimension_style(tn_buffer *to, const tn_dxf_content *c)
     tn_dxf_put(to, 44, 0.4 * text);
     tn_dxf_put(to, 140, text);
     tn_dxf_put(to, 142, 0.4 * text);
-    tn_dxf_put(to, 144, feet || c->measure == TN_DXF_MILLIMETRES ? 1 : 0.001);
+    tn_dxf_put(to, 144, dimension_factor(c));
     tn_dxf_put(to, 147, 0.4 * text);
     tn_buffer_printf(to, "73\n0\n74\n0\n77\n1\n78\n%d\n271\n%d\n277\n%d\n340\n%X\n", feet ? 0 : 8, feet ? 4 : 3,
                      feet ? 4 : 2, (unsigned)TN_DXF_STYLE);

@@ -28,7 +28,7 @@ static const struct {
     const tn_hatch_lines *lines;
     size_t count;
 } patterns[TN_HATCH_COUNT] = {
-    [TN_HATCH_DIAGONAL] = PATTERN("DIAGONAL", diagonal),
+    [TN_HATCH_DIAGONAL] = PATTERN("ANSI31", diagonal),
     [TN_HATCH_MASONRY] = PATTERN("MASONRY", masonry),
     [TN_HATCH_CONCRETE] = PATTERN("CONCRETE", concrete),
     [TN_HATCH_TIMBER] = PATTERN("TIMBER", timber),

@@ -30,7 +30,7 @@ typedef struct tn_hatch_lines {
 /* The lines that a pattern is made of. */
 const tn_hatch_lines *tn_hatch_made_of(tn_hatch hatch, size_t *count);
 
-/* Its name, as in "INSULATION". */
+/* Its name, as in "INSULATION"; of diagonal lines "ANSI31", which drawing programs know, 1/8" apart. */
 const char *tn_hatch_name(tn_hatch hatch);
 
 #endif
