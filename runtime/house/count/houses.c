@@ -350,6 +350,15 @@ void tn_other_clauses_set(const tn_house_form *form, const tn_house_library_reco
 
 /* ---- walks */
 
+static tn_status refuse_measure(const char *name, tn_error *error)
+{
+    tn_fail(error, TN_LIMIT, E_WALKS_OF_ALL,
+            "`%.80s` asks how one walks through a house: houses are not put in order or spread by that", name);
+    tn_error_help(error, "compare it in a library, `require %.80s <= 25m`, and list the houses on one plan (--plan)",
+                  name);
+    return TN_LIMIT;
+}
+
 static tn_status refuse_walks(const char *name, tn_error *error)
 {
     tn_fail(error, TN_LIMIT, E_WALKS_OF_ALL,
@@ -371,7 +380,7 @@ tn_status tn_houses_check_walks(const tn_house_form *form, const tn_house_librar
     free(walks);
     for (uint32_t k = 0; status == TN_OK && measures && k < measures->count; k++)
         if (tn_measure_walks(module, &measures->of[k]->of))
-            status = refuse_walks(tn_text(module, measures->of[k]->of.name), error);
+            status = refuse_measure(tn_text(module, measures->of[k]->of.name), error);
     return status;
 }
 
