@@ -77,6 +77,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token SECTION "`section`" VOID "`void`" NO "`no`" FUNCTION "`function`" OUTDOOR "`outdoor`" AT "`at`" CELL "`cell`"
 %token OPENING "`opening`" WIDE "`wide`" HIGH "`high`" SILL "`sill`" CLEAR "`clear`" PASSAGE "`passage`"
 %token WAY "`way`" HEADROOM "`headroom`" GUARD "`guard`"
+%token BEAM "`beam`" SPAN "`span`"
 %token FLIGHT "`flight`" RISE "`rise`" GOING "`going`" TURN "`turn`" WINDERS "`winders`"
 %token GLAZED "`glazed`" LEAFLESS "`leafless`" NEAR "`near`" SLIDING "`sliding`" MATERIAL "`material`" PRICE "`price`" PER "`per`"
 %token FACE "`face`" BESIDE "`beside`" ALONG "`along`" ACROSS "`across`" UNDER "`under`" OUTSIDE "`outside`"
@@ -795,6 +796,8 @@ form_clause
                                                 { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_OPENING, .name = $2, .doc = $3, .length = $5, .high = $7, .parts = $8}); }
     | flight NAME doc WIDE size RISE size DOTS size going turn winders
                                                 { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_FLIGHT, .name = $2, .doc = $3, .length = $5, .low = $7, .high = $9, .going = $10, .detail = $11, .winders = $12}); }
+    | beam NAME doc WIDE size HIGH size SPAN size
+                                                { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_BEAM, .name = $2, .doc = $3, .length = $5, .high = $7, .going = $9}); }
     | face cells relation cells EQUAL kinds     { $3.first = $2; $3.second = $4; $3.list = $6; $$ = tn_ast_form_clause_new(parse, @$, $3); }
     | face cells OUTSIDE outside_side EQUAL kinds
                                                 { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_FACE, .relation = TN_FACE_OUTSIDE, .first = $2, .detail = $4, .list = $6}); }
@@ -819,6 +822,7 @@ no: NO                                          { yyerrok; };
 function: FUNCTION                              { yyerrok; };
 opening: OPENING                                { yyerrok; };
 flight: FLIGHT                                  { yyerrok; };
+beam: BEAM                                      { yyerrok; };
 way: WAY                                        { yyerrok; };
 headroom: HEADROOM                              { yyerrok; };
 guard: GUARD                                    { yyerrok; };

@@ -796,6 +796,8 @@ static void complete_form(lsp_cursor *c)
         offer_words(c, TN_AT(WAY));
     } else if (cursor_is(c, c->clause, "flight")) {
         offer_words(c, TN_AT(FLIGHT));
+    } else if (cursor_is(c, c->clause, "beam")) {
+        offer_words(c, TN_AT(BEAM));
     } else if (cursor_is(c, c->clause, "section")) {
         offer_words(c, TN_AT(CHOICE));
     } else if (cursor_is(c, c->clause, "forbid")) {

@@ -26,7 +26,7 @@ ROOT, PRODUCT = "Snss", "Snsssnn"
 ELEMENT, SPATIAL = PRODUCT + "s", PRODUCT + "se"
 TYPES = {
     "IFCAXIS2PLACEMENT2D": "Nn", "IFCAXIS2PLACEMENT3D": "Nnn", "IFCBUILDING": SPATIAL + "rrn",
-    "IFCBUILDINGSTOREY": SPATIAL + "r", "IFCCARTESIANPOINT": "V", "IFCCARTESIANPOINTLIST3D": "L", "IFCCOLUMN": ELEMENT + "e", "IFCDIRECTION": "V", "IFCDOOR": ELEMENT + "rrees",
+    "IFCBUILDINGSTOREY": SPATIAL + "r", "IFCCARTESIANPOINT": "V", "IFCCARTESIANPOINTLIST3D": "L", "IFCCOLUMN": ELEMENT + "e", "IFCBEAM": ELEMENT + "e", "IFCDIRECTION": "V", "IFCDOOR": ELEMENT + "rrees",
     "IFCELEMENTQUANTITY": ROOT + "sA", "IFCEXTRUDEDAREASOLID": "NnNR", "IFCFURNITURE": ELEMENT + "e",
     "IFCGEOMETRICREPRESENTATIONCONTEXT": "ssIrNn", "IFCGEOMETRICREPRESENTATIONSUBCONTEXT": "ssDDDDNrEs", "IFCLOCALPLACEMENT": "nN",
     "IFCINDEXEDPOLYGONALFACE": "V", "IFCMATERIAL": "Sss", "IFCMATERIALLAYER": "nResssi", "IFCMATERIALLAYERSET": "Ass",
@@ -49,7 +49,7 @@ VALUES = {
     ("IFCROOF", 8): "FLAT_ROOF SHED_ROOF GABLE_ROOF BARREL_ROOF HIP_ROOF NOTDEFINED",
     ("IFCMATERIALLAYERSETUSAGE", 1): "AXIS2 AXIS3", ("IFCMATERIALLAYERSETUSAGE", 2): "POSITIVE NEGATIVE", ("IFCRELSPACEBOUNDARY", 7): "PHYSICAL", ("IFCRELSPACEBOUNDARY", 8): "INTERNAL EXTERNAL", ("IFCSPACE", 8): "ELEMENT", ("IFCSPACE", 9): "INTERNAL EXTERNAL",
 }
-ELEMENTS = "IFCWALL IFCCOLUMN IFCSLAB IFCROOF IFCSTAIR IFCRAILING IFCFURNITURE IFCDOOR IFCWINDOW".split()
+ELEMENTS = "IFCWALL IFCBEAM IFCCOLUMN IFCSLAB IFCROOF IFCSTAIR IFCRAILING IFCFURNITURE IFCDOOR IFCWINDOW".split()
 PRODUCTS = ELEMENTS + ["IFCOPENINGELEMENT", "IFCSPACE", "IFCSITE", "IFCBUILDING", "IFCBUILDINGSTOREY"]
 # attribute -> what it may refer to
 REFERENCES = {
@@ -208,7 +208,11 @@ def compare(made, house):
     check("as many things", len(of("IFCFURNITURE")) == kinds["item"])
     tops = {(house["cells"][of]["zone"], house["cells"][of]["storey"]) for of, _ in slabs}
     check("a roof for each zone and storey", len(of("IFCROOF")) == len(tops))
-    check("as many openings", len(of("IFCOPENINGELEMENT")) == len(openings))
+    beams = [s for s in house["solids"] if s["kind"] == "beam"]
+    pockets = [n for n in of("IFCOPENINGELEMENT") if made[n][1][-1] == ".RECESS."]
+    check("pockets are of beams", beams or not pockets)
+    check("as many openings", len(of("IFCOPENINGELEMENT")) == len(openings) + len(pockets))
+    check("as many beams, by their names", Counter(spelt(made[n][1][2]) for n in of("IFCBEAM")) == Counter(s["name"] for s in beams))
     check("as many doors and windows", len(of("IFCDOOR")) + len(of("IFCWINDOW")) == sum(has_leaf(f["kind"]) for f in openings))
     check("as many stairs", len(of("IFCSTAIR")) == sum(f["kind"] == "stair" for f in house["faces"]) + len(flights))
     check("as many rooms", len(of("IFCSPACE")) == len(house["rooms"]))
@@ -225,7 +229,7 @@ def compare(made, house):
         if entity == "IFCWALL":
             outer = {n for n in of(entity) if spelt(made[n][1][2]) == "outside"}
             check("walls that are external", {n for n in said if said[n]} == outer and len(outer) == len([w for w in walls if w[0] == "outside"]))
-    rest = sum(volume_of(made, n) for name in ("IFCCOLUMN", "IFCSLAB", "IFCFURNITURE", "IFCSTAIR", "IFCRAILING") for n in of(name)) - over
+    rest = sum(volume_of(made, n) for name in ("IFCCOLUMN", "IFCBEAM", "IFCSLAB", "IFCFURNITURE", "IFCSTAIR", "IFCRAILING") for n in of(name)) - over
     winding = F(sum(map(house_prisms.volume_of, wedges))) / 10**18
     check("other boxes", rest == winding + sum(box(s) for s in house["solids"] if s["kind"] not in ("outside", "party", "partition")))
     materials = [spelt(made[n][1][0]) for n in of("IFCMATERIAL")]

@@ -510,19 +510,23 @@ tn_status tn_explain_covered(tn_house_explaining *e, tn_list *list, tn_error *er
 tn_status tn_explain_hanging(tn_house_explaining *e, tn_list *list, tn_error *error)
 {
     int64_t from, to;
-    for (uint32_t i = 0; i < e->house.face_count; i++) {
-        char text[400];
-        if (!tn_face_hangs(&e->house, &e->house.faces[i], &from, &to))
+    tn_flights flights;
+    tn_bearing bearing = {0};
+    tn_status status = tn_flights_stand(&e->house, &flights, error);
+    if (status == TN_OK)
+        status = tn_house_bearing(&e->house, &flights, &bearing, error);
+    for (uint32_t i = 0; status == TN_OK && i < e->house.face_count; i++) {
+        char text[600];
+        if (!tn_face_hangs(&bearing, &e->house.faces[i], &from, &to, NULL))
             continue;
         tn_hanging_wall *wall = tn_message_add(&tn_message_hanging_wall, list, error);
-        if (!wall)
-            return TN_MEMORY;
-        tn_hanging_text(&e->house, i, from, to, text, sizeof text);
-        wall->wall = strdup(text);
-        if (!wall->wall)
-            return tn_fail_memory(error);
+        tn_hanging_text(&e->house, &bearing, i, text, sizeof text);
+        if (!wall || !(wall->wall = strdup(text)))
+            status = tn_fail_memory(error);
     }
-    return TN_OK;
+    tn_bearing_clear(&bearing);
+    tn_flights_clear(&flights);
+    return status;
 }
 
 /* ---- looks for kept houses near to one that is dropped */

@@ -331,7 +331,7 @@ static tn_status set_line(const tn_house *house, tn_built_house *built, tn_error
 enum { HANGING_SHOWN = 8 }; /* walls of a storey that are named */
 
 /* Warns of walls of a storey that stand over nothing thicker than a partition, at the line of the storey. */
-static void warn_of_hanging(const building *b, const tn_house *house, uint32_t storey)
+static void warn_of_hanging(const building *b, const tn_house *house, const tn_bearing *bearing, uint32_t storey)
 {
     tn_compilation *compilation = &b->session->opened->compilation;
     const tn_house_form *form = house->form;
@@ -341,7 +341,7 @@ static void warn_of_hanging(const building *b, const tn_house *house, uint32_t s
     size_t count = 0;
     int64_t from, to;
     for (uint32_t i = 0; i < house->face_count; i++)
-        if (house->faces[i].storey == storey && tn_face_hangs(house, &house->faces[i], &from, &to)) {
+        if (house->faces[i].storey == storey && tn_face_hangs(bearing, &house->faces[i], &from, &to, NULL)) {
             if (count < HANGING_SHOWN)
                 walls[count] = i;
             count++;
@@ -354,14 +354,28 @@ static void warn_of_hanging(const building *b, const tn_house *house, uint32_t s
                                             : "walls of storey `%s` stand over nothing thicker than a partition",
                                  tn_text(form->module, record->name));
     for (size_t i = 0; i < count && i < HANGING_SHOWN; i++) {
-        char text[400];
-        tn_face_hangs(house, &house->faces[walls[i]], &from, &to);
-        tn_hanging_text(house, walls[i], from, to, text, sizeof text);
+        char text[600];
+        tn_hanging_text(house, bearing, walls[i], text, sizeof text);
         tn_note(list, d, NULL, "%s", text);
     }
     if (count > HANGING_SHOWN)
         tn_note(list, d, NULL, "and %zu more", count - HANGING_SHOWN);
-    tn_help(list, d, "what bears such a wall is a wall of that thickness below, outside or `party`, or a post");
+    tn_help(list, d, "what bears such a wall is a wall of that thickness below, outside or `party`, a post, or a `beam` "
+                     "whose `span` is as long");
+}
+
+static tn_status warn_of_walls(const building *b, const tn_house *house, tn_error *error)
+{
+    tn_flights flights;
+    tn_bearing bearing = {0};
+    tn_status status = tn_flights_stand(house, &flights, error);
+    if (status == TN_OK)
+        status = tn_house_bearing(house, &flights, &bearing, error);
+    for (uint32_t k = 1; status == TN_OK && k < house->form->record->storey_count; k++)
+        warn_of_hanging(b, house, &bearing, k);
+    tn_bearing_clear(&bearing);
+    tn_flights_clear(&flights);
+    return status;
 }
 
 static tn_status write_all(void *context, const tn_house *house, tn_error *error)
@@ -377,9 +391,7 @@ static tn_status write_all(void *context, const tn_house *house, tn_error *error
     for (size_t i = 0; status == TN_OK && i < b->request->files.count; i++)
         status = write_file(b, b->request->files.items[i], error);
     tn_solids_clear(&solids);
-    for (uint32_t k = 1; status == TN_OK && k < house->form->record->storey_count; k++)
-        warn_of_hanging(b, house, k);
-    return status;
+    return status == TN_OK ? warn_of_walls(b, house, error) : status;
 }
 
 /* ---- which house */

@@ -37,14 +37,44 @@ void tn_face_text(const tn_house *house, uint32_t index, char *text, size_t size
     snprintf(text, size, "%s to %s", cell, other);
 }
 
-void tn_hanging_text(const tn_house *house, uint32_t face, int64_t from, int64_t to, char *text, size_t size)
+static void write_length(const tn_house *house, int64_t length, char text[64])
 {
-    char at[256], length[64];
     tn_length_style style = tn_house_length_style(house);
-    bool whole = style != TN_STYLE_FEET || (to - from) % (TN_INCH_NM / 64) == 0; /* other lengths are in metres */
+    bool whole = style != TN_STYLE_FEET || length % (TN_INCH_NM / 64) == 0; /* other lengths are in metres */
+    tn_length_write_style(length, whole ? style : TN_STYLE_METRES, text, 64);
+}
+
+/* Why none of the form's beams bears a stretch; empty if the form has none. */
+static void write_why(const tn_house *house, const tn_unborne *stretch, char *text, size_t size)
+{
+    const tn_house_form *form = house->form;
+    const tn_beam_record *spans = NULL;
+    char length[64];
+    for (uint32_t i = form->record->beam_count; i-- > 0;)
+        if (tn_form_beam(form, i)->span >= stretch->to - stretch->from)
+            spans = tn_form_beam(form, i);
+    write_length(house, stretch->to - stretch->from, length);
+    if (form->record->beam_count == 0)
+        snprintf(text, size, "%s", "");
+    else if (!stretch->held)
+        snprintf(text, size, ": nothing bears both ends of a beam there, %s apart", length);
+    else if (!spans)
+        snprintf(text, size, ": no beam spans the %s from what bears it to what bears it", length);
+    else
+        snprintf(text, size, ": below beam `%.60s` there is no room for what stands there",
+                 tn_text(form->module, spans->name));
+}
+
+void tn_hanging_text(const tn_house *house, const tn_bearing *bearing, uint32_t face, char *text, size_t size)
+{
+    int64_t from = 0, to = 0;
+    char at[256], length[64], why[200] = "";
+    const tn_unborne *stretch = NULL;
     tn_face_text(house, face, at, sizeof at);
-    tn_length_write_style(to - from, whole ? style : TN_STYLE_METRES, length, sizeof length);
-    snprintf(text, size, "%s, along %s", at, length);
+    if (tn_face_hangs(bearing, &house->faces[face], &from, &to, &stretch) && stretch)
+        write_why(house, stretch, why, sizeof why);
+    write_length(house, to - from, length);
+    snprintf(text, size, "%s, along %s%s", at, length, why);
 }
 
 static void name_tile(const tn_house *house, uint32_t cell, size_t variant, char text[TN_VARIANT_TEXT])

@@ -12,7 +12,7 @@ void tn_cell_text(const tn_house *house, uint32_t cell, char *text, size_t size)
 void tn_face_text(const tn_house *house, uint32_t face, char *text, size_t size);
 
 /* "2.body.loft, front, along 12'": a wall of the house for which tn_face_hangs holds. */
-void tn_hanging_text(const tn_house *house, uint32_t face, int64_t from, int64_t to, char *text, size_t size);
+void tn_hanging_text(const tn_house *house, const tn_bearing *bearing, uint32_t face, char *text, size_t size);
 
 typedef struct tn_change_words {
     char where[TN_NAME_MAX + 16], from[TN_VARIANT_TEXT], to[TN_VARIANT_TEXT];

@@ -163,12 +163,6 @@ static inline bool tn_face_is_open_side(const tn_house *house, const tn_face *fa
 /* The thickness of the wall that stands in a face; 0 where none does. */
 int64_t tn_face_thickness(const tn_house *house, const tn_face *face);
 
-/* ---- bearing.c */
-
-/* Does an outside or party wall stand there, above the lowest storey, over nothing that is as thick? from, to: along
- * the face, the longest stretch without a wall or post below that is, the first of equal ones. */
-bool tn_face_hangs(const tn_house *house, const tn_face *face, int64_t *from, int64_t *to);
-
 /* ---- house_line.c */
 
 /* Reads a house line: `plan ; section ; functions ; faces ; tiles`. Parts at the end that leave no choice may be left
@@ -420,6 +414,34 @@ typedef struct tn_flights {
 /* Clear it in any case. TN_MEMORY. */
 tn_status tn_flights_stand(const tn_house *house, tn_flights *flights, tn_error *error);
 void tn_flights_clear(tn_flights *flights);
+
+/* ---- bearing.c */
+
+/* A stretch of outside and party walls, above the lowest storey, over nothing that is as thick: along a plane across x
+ * (in_y) or across y. held: does each of its ends rest on a wall as thick or a post below? beam: the form's beam that
+ * bears it, with its box; TN_NO_RECORD: none does. */
+typedef struct tn_unborne {
+    uint32_t storey; /* of the walls */
+    bool in_y, held;
+    int64_t plane, from, to;
+    uint32_t beam;
+    tn_box at;
+} tn_unborne;
+
+/* All of them, in the order of faces. Owns them. */
+typedef struct tn_bearing {
+    tn_unborne *items;
+    size_t count, room;
+} tn_bearing;
+
+/* Clear it in any case. TN_MEMORY. */
+tn_status tn_house_bearing(const tn_house *house, const tn_flights *flights, tn_bearing *bearing, tn_error *error);
+void tn_bearing_clear(tn_bearing *bearing);
+
+/* Does a wall stand there over nothing that is as thick, nor a beam? from, to: along the face, the longest stretch
+ * without, the first of equal ones; *of: what it is a part of, if not NULL. */
+bool tn_face_hangs(const tn_bearing *bearing, const tn_face *face, int64_t *from, int64_t *to,
+                   const tn_unborne **of);
 
 /* ---- rooms.c */
 

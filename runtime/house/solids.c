@@ -9,7 +9,7 @@
 const char *tn_solid_kind_text(tn_solid_kind kind)
 {
     static const char *const words[] = {"outside", "party", "partition", "post", "deck",  "roofdeck",
-                                        "item",    "roof",  "pane",      "leaf", "flight", "guard", "gable"};
+                                        "item",    "roof",  "pane",      "leaf", "flight", "guard", "gable", "beam"};
     return words[kind];
 }
 
@@ -116,6 +116,67 @@ static tn_status put_walls(const tn_house *house, uint32_t storey, tn_rectangles
         if (house->faces[i].storey == storey)
             status = put_wall(house, i, &posts, foot, solids, error);
     free(posts.items);
+    return status;
+}
+
+/* ---- beams */
+
+/* A wall or post, and what of it is not in the way of beams. */
+static tn_status put_around(const tn_solid *solid, const tn_solids *beams, tn_solids *kept, tn_error *error)
+{
+    tn_rectangle at = {solid->at.x0, solid->at.x1, solid->at.y0, solid->at.y1};
+    tn_rectangles whole = {&at, 1, 1}, met = {0}, rest = {0};
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < beams->box_count; i++) {
+        const tn_box *beam = &beams->boxes[i].at;
+        tn_rectangle under = {beam->x0, beam->x1, beam->y0, beam->y1};
+        if (!tn_rectangles_meet(&at, &under) || beam->z0 >= solid->at.z1 || beam->z1 <= solid->at.z0)
+            continue;
+        tn_solid below = *solid;
+        under = tn_rectangles_common(&at, &under);
+        below.at = (tn_box){under.x0, under.x1, under.y0, under.y1, solid->at.z0, beam->z0};
+        status = tn_rectangles_add(&met, under, error);
+        if (status == TN_OK && below.at.z0 < below.at.z1)
+            status = tn_solids_add(kept, below, error);
+    }
+    if (status == TN_OK && met.count == 0)
+        status = tn_solids_add(kept, *solid, error);
+    else if (status == TN_OK)
+        status = tn_region_cut(&whole, &met, &rest, error);
+    for (size_t i = 0; status == TN_OK && i < rest.count; i++)
+        status = put(kept, solid->kind, solid->of, rest.items[i], solid->at.z0, solid->at.z1, error);
+    for (size_t i = 0; status == TN_OK && i < rest.count; i++)
+        kept->boxes[kept->box_count - 1 - i].item = solid->item;
+    free(met.items);
+    free(rest.items);
+    return status;
+}
+
+/* The beams below walls that nothing else bears, in the place of what stands there. So far there are walls and posts. */
+static tn_status put_beams(const tn_house *house, const tn_flights *flights, tn_solids *solids, tn_error *error)
+{
+    tn_bearing bearing;
+    tn_solids beams = {0}, kept = {0};
+    if (house->form->record->beam_count == 0)
+        return TN_OK;
+    tn_status status = tn_house_bearing(house, flights, &bearing, error);
+    for (size_t i = 0; status == TN_OK && i < bearing.count; i++) {
+        const tn_unborne *b = &bearing.items[i];
+        if (b->beam != TN_NO_RECORD)
+            status = tn_solids_add(&beams, (tn_solid){TN_SOLID_BEAM, b->storey - 1, b->beam, b->at}, error);
+    }
+    for (size_t i = 0; status == TN_OK && beams.box_count > 0 && i < solids->box_count; i++)
+        status = put_around(&solids->boxes[i], &beams, &kept, error);
+    for (size_t i = 0; status == TN_OK && i < beams.box_count; i++)
+        status = tn_solids_add(&kept, beams.boxes[i], error);
+    if (status == TN_OK && beams.box_count > 0) {
+        tn_solids_clear(solids);
+        *solids = kept;
+        kept = (tn_solids){0};
+    }
+    tn_bearing_clear(&bearing);
+    tn_solids_clear(&beams);
+    tn_solids_clear(&kept);
     return status;
 }
 
@@ -259,6 +320,8 @@ static tn_status put_building(const tn_house *house, bool items, const tn_flight
     tn_status status = TN_OK;
     for (uint32_t k = 0; status == TN_OK && k < storeys; k++)
         status = put_walls(house, k, &foot[k], solids, error);
+    if (status == TN_OK)
+        status = put_beams(house, flights, solids, error);
     for (uint32_t k = 0; status == TN_OK && k <= storeys; k++)
         status = put_deck(house, k, flights, &foot[k], &decks[k], solids, error);
     if (status == TN_OK)

@@ -23,13 +23,14 @@ typedef enum tn_solid_kind {
     TN_SOLID_FLIGHT, /* a step or landing */
     TN_SOLID_GUARD,
     TN_SOLID_GABLE, /* wall below the slab of a roof, above the storey */
+    TN_SOLID_BEAM,
     TN_SOLID_COUNT
 } tn_solid_kind;
 
 const char *tn_solid_kind_text(tn_solid_kind kind);
 
 /* of: the face of a wall, flight or guard (at a hole, of the flight), the cell of a roof deck or an item, the storey of a
- * deck or post. item: a TILE_BOX record; of a post, the face of the wall as which it is cut into layers, or TN_NO_FACE. */
+ * deck, post or beam. item: a TILE_BOX record; of a beam, its number in the form; of a post, the face of the wall as which it is cut into layers, or TN_NO_FACE. */
 #define TN_NO_FACE UINT32_MAX
 typedef struct tn_solid {
     tn_solid_kind kind;

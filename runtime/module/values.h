@@ -95,6 +95,7 @@ typedef enum tn_comparison { TN_ALWAYS, TN_AGE_BELOW, TN_AGE_ABOVE, TN_AGE_EQUAL
 #define TN_TILE_BOXES_MAX 1000u
 #define TN_MATERIALS_MAX 1000u
 #define TN_LAYERS_MAX 200u
+#define TN_BEAMS_MAX 64u
 #define TN_PRICE_MAX INT64_C(1000000000000000) /* millionths: a thousand million */
 #define TN_RATIO_MAX 1000u                     /* either number of the glazing of a room to its floor */
 #define TN_SLOPE_MAX 1000u                     /* either number of a slope */

@@ -27,7 +27,7 @@ FORM_CLAUSES = {
     "forbid_word sections": 1, "void cells": .3, "no cells": .2, "function NAME doc AT cells": 0, "function NAME doc OUTDOOR AT cells": .3, "opening NAME doc WIDE size HIGH size opening_parts": 0,
     "flight NAME doc WIDE size RISE size DOTS size going turn winders": .2, "face cells relation cells EQUAL kinds": 2.5,
     "face cells OUTSIDE outside_side EQUAL kinds": 1, "tile NAME doc FOR names OPEN_BRACE tile_parts CLOSE_BRACE": .8, "allow_word names": .2,
-    "material NAME STRING price FOR names material_where": .8, "way size": .4, "way size FOR names": .2, "headroom size": .2, "guard size": .1,
+    "material NAME STRING price FOR names material_where": .8, "way size": .4, "way size FOR names": .2, "headroom size": .2, "guard size": .1, "beam NAME doc WIDE size HIGH size SPAN size": .1,
 }
 CELLS = {"counted", "cells"}
 SORTS["primary: CELL OPEN specifier CLOSE"] = QUESTIONS | CELLS
@@ -103,6 +103,7 @@ CONTEXTS.update({
     "form_clause: allow_word names": named(_1="code"),
     "form_clause: material NAME STRING price FOR names material_where": joined(fresh("oak"), named(_2="colour", _3="unit", _5="part")),
     "form_clause: way size": sized(_1="person"), "form_clause: headroom size": sized(_1="headroom"), "form_clause: guard size": sized(_1="sill"),
+    "form_clause: beam NAME doc WIDE size HIGH size SPAN size": fresh("girder", _4="partition", _6="sill", _8="storey"),
     "form_clause: way size FOR names": joined(sized(_1="person"), named(_3="function")), "opening_part: NEAR side size": sized(_2="short"),
     "opening_part: SILL size": sized(_1="sill"), "opening_part: CLEAR size": sized(_1="short"),
     "tile_part: WIDE size DOTS size": sized(_1="short", _3="long"), "tile_part: DEEP size DOTS size": sized(_1="short", _3="long"),

@@ -501,6 +501,7 @@ static void check_form(tn_check *check, tn_checked_form *form)
     each(check, form, TN_PART_TILE);
     tn_check_ways(check, form);
     tn_check_layers(check, form);
+    tn_check_beams(check, form);
     each(check, form, TN_PART_MATERIAL);
     tn_check_layer_prices(check, form);
 }

@@ -101,6 +101,11 @@ typedef struct tn_checked_layer {
     int64_t thick;
 } tn_checked_layer;
 
+typedef struct tn_checked_beam {
+    const tn_ast_form_clause *ast;
+    int64_t wide, high, span;
+} tn_checked_beam;
+
 typedef struct tn_checked_form {
     const tn_ast_form *ast;
     const char *name;
@@ -118,13 +123,14 @@ typedef struct tn_checked_form {
     tn_checked_face *faces;
     tn_checked_tile *tiles;
     tn_checked_material *materials;
+    tn_checked_beam *beams;
     tn_checked_way *ways;  /* [functions] of each; of those that lines name: ast */
     int64_t way, headroom, guard; /* 0: nothing is asked about ways */
     const tn_ast_form_clause *way_ast, *headroom_ast, *guard_ast;
     uint32_t index, storey_first, rule_first, shape_first; /* emitted: of its records */
     tn_ast_list allow;                                     /* tn_ast_word: warnings that it does not want */
     uint32_t storey_count, choice_count, rule_count, function_count, opening_count, face_count, tile_count;
-    uint32_t material_count, layer_count;
+    uint32_t material_count, layer_count, beam_count;
 } tn_checked_form;
 
 /* Of two words for one thing, those in the unit of the schema's lengths; in feet where it has none. */
@@ -200,6 +206,13 @@ bool tn_form_is_halved(const tn_ast_form_clause *ast);
 void tn_form_help_half(tn_check *check, tn_diagnostic *d, const char *why, int64_t length, const char *spelling);
 
 /* ---- form_material.c */
+/* The lines `beam`, once layers are known, and before materials. */
+void tn_check_beams(tn_check *check, tn_checked_form *form);
+/* The beam of a name; TN_NONE where there is none. */
+uint32_t tn_form_beam_named(const tn_checked_form *form, const char *name);
+/* The name of a layer or a beam, which is a part, so that materials can be for it: E1603 if something else that they may
+ * be for is called so. */
+void tn_check_part_name(tn_check *check, const tn_checked_form *form, const tn_ast_word *name);
 /* The layers, once everything that has a name is known, and before materials. */
 void tn_check_layers(tn_check *check, tn_checked_form *form);
 /* Warns of layers without a price, if others have one. */

@@ -1,5 +1,5 @@
-/* Checks what the parts of a form are made of: the layers of walls, partitions and decks, and materials, their colours
- * and prices, what they are for and where. */
+/* Checks what the parts of a form are made of: the layers of walls, partitions, decks and roofs, beams, and
+ * materials, their colours and prices, what they are for and where. */
 #include <stdio.h>
 #include <string.h>
 
@@ -110,14 +110,17 @@ uint32_t tn_form_part_named(const tn_checked_form *form, const char *name)
     if (opening != TN_NONE)
         return openings + opening;
     uint32_t item = tn_form_item_named(form, name), items = openings + form->opening_count;
+    uint32_t guard = items + count_boxes(form), beam = tn_form_beam_named(form, name);
     if (item == TN_NONE && strcmp(name, "guard") == 0)
-        return items + count_boxes(form);
+        return guard;
+    if (item == TN_NONE && beam != TN_NONE)
+        return guard + 1 + beam;
     return item == TN_NONE ? TN_NONE : items + item;
 }
 
 static void unknown_part(tn_check *check, const tn_checked_form *form, const tn_ast_word *word)
 {
-    const char *names[TN_OF_COUNT + 1 + TN_LAYERS_MAX + TN_OPENINGS_MAX + 64];
+    const char *names[TN_OF_COUNT + 1 + TN_LAYERS_MAX + TN_BEAMS_MAX + TN_OPENINGS_MAX + 64];
     size_t count = 0, room = sizeof names / sizeof *names;
     for (; count < TN_OF_COUNT; count++)
         names[count] = tn_names_OF[count];
@@ -125,6 +128,8 @@ static void unknown_part(tn_check *check, const tn_checked_form *form, const tn_
         names[count++] = "guard";
     for (uint32_t i = 0; i < form->layer_count; i++)
         names[count++] = form->layers[i].ast->name->text;
+    for (uint32_t i = 0; i < form->beam_count; i++)
+        names[count++] = form->beams[i].ast->name->text;
     for (uint32_t i = 0; i < form->opening_count; i++)
         names[count++] = form->openings[i].ast->name->text;
     for (uint32_t t = 0; t < form->tile_count; t++)
@@ -215,8 +220,7 @@ static const char *shown(const tn_ast_form_clause *ast, int64_t length, char tex
     return text;
 }
 
-/* A layer is a part, so that materials can be for it: nothing else that they may be for is called so. */
-static void check_layer_name(tn_check *check, const tn_checked_form *form, const tn_ast_word *name)
+void tn_check_part_name(tn_check *check, const tn_checked_form *form, const tn_ast_word *name)
 {
     const char *what = tn_form_opening_named(form, name->text) != TN_NONE ? "an opening"
                        : tn_form_item_named(form, name->text) != TN_NONE  ? "an item"
@@ -304,7 +308,7 @@ static void check_line(tn_check *check, const tn_checked_form *form, const tn_as
         return;
     }
     for (TN_EACH(const tn_ast_layer, layer, ast->parts))
-        check_layer_name(check, form, layer->name);
+        tn_check_part_name(check, form, layer->name);
     if (read_layers(check, ast, &sum, &thickest) && sum != form->thickness[ast->part - TN_PART_WALL])
         misfit(check, form, ast, thickest, sum);
 }
@@ -331,6 +335,118 @@ void tn_check_layers(tn_check *check, tn_checked_form *form)
         bool again = of == TN_LAYERED_PARTY && ast == form->thickness_ast[TN_LAYERED_OUTSIDE];
         if (has_layers(ast) && !again)
             check_line(check, form, ast);
+    }
+}
+
+/* ---- beams: their names, their sizes, and whether a house can have them */
+
+uint32_t tn_form_beam_named(const tn_checked_form *form, const char *name)
+{
+    for (uint32_t i = 0; i < form->beam_count; i++)
+        if (strcmp(form->beams[i].ast->name->text, name) == 0)
+            return i;
+    return TN_NONE;
+}
+
+/* It lies in the plane of a wall, and takes all of the thickness of a partition below. */
+static bool is_as_wide_as_walls(tn_check *check, const tn_checked_form *form, const tn_checked_beam *beam)
+{
+    const tn_ast_word *wide = beam->ast->length;
+    int64_t wall = form->thickness[0], partition = form->thickness[1];
+    char most[64];
+    if (beam->wide % 2) {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_THICKNESS, wide->node.span,
+                                     "half of this beam is not a whole number of nanometres");
+        tn_form_help_half(check, d, "half of it goes to each side of a plane", beam->wide, wide->text);
+        return false;
+    }
+    if (beam->wide >= partition && beam->wide <= wall)
+        return true;
+    bool narrow = beam->wide < partition;
+    tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_BEAM, wide->node.span, "beam `%.80s` is %s",
+                                 beam->ast->name->text, narrow ? "narrower than a partition" : "wider than a wall");
+    tn_help(check->diagnostics, d, "write `wide %s`: beams are at least as wide as `partition`, and at most as `wall`",
+            shown(beam->ast, narrow ? partition : wall, most));
+    return false;
+}
+
+/* Something is left between it and the floor in each storey that has one above. */
+static bool leaves_room(tn_check *check, const tn_checked_form *form, const tn_checked_beam *beam)
+{
+    const tn_checked_storey *lowest = NULL;
+    char high[64];
+    for (uint32_t i = 0; i + 1 < form->storey_count; i++)
+        if (!lowest || form->storeys[i].height < lowest->height)
+            lowest = &form->storeys[i];
+    if (!lowest || beam->high < lowest->height - form->thickness[2])
+        return true;
+    tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_BEAM, beam->ast->high->node.span,
+                                 "beam `%.80s` is as high as the rooms of storey `%.80s`", beam->ast->name->text,
+                                 lowest->ast->name->text);
+    tn_help(check->diagnostics, d, "write less than %s, the height from its floor to the deck above",
+            shown(beam->ast, lowest->height - form->thickness[2], high));
+    return false;
+}
+
+static bool is_there(tn_check *check, const tn_checked_beam *beam)
+{
+    const tn_ast_word *zero = beam->wide == 0   ? beam->ast->length
+                              : beam->high == 0 ? beam->ast->high
+                              : beam->span == 0 ? beam->ast->going
+                                                : NULL;
+    if (zero) {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_BEAM, zero->node.span, "beam `%.80s` has no size",
+                                     beam->ast->name->text);
+        tn_help(check->diagnostics, d, "write a length above 0");
+    }
+    return beam->wide > 0 && beam->high > 0 && beam->span > 0;
+}
+
+/* The first fits wherever a later one does that is as wide and as high or more, and spans no more. */
+static void check_taken(tn_check *check, const tn_checked_form *form, const tn_checked_beam *beam)
+{
+    for (uint32_t i = 0; i < form->beam_count; i++) {
+        const tn_checked_beam *first = &form->beams[i];
+        if (first->span < beam->span || first->wide > beam->wide || first->high > beam->high)
+            continue;
+        tn_diagnostic *d = tn_report(check->diagnostics, W_IDLE_BEAM, beam->ast->node.span, "no house has beam `%.80s`",
+                                     beam->ast->name->text);
+        tn_note(check->diagnostics, d, &first->ast->node.span, "this one comes first, and fits wherever it does");
+        tn_help(check->diagnostics, d, "write beams with shorter spans before those with longer ones");
+        return;
+    }
+    if (form->storey_count > 1)
+        return;
+    tn_diagnostic *d = tn_report(check->diagnostics, W_IDLE_BEAM, beam->ast->node.span, "no house has beam `%.80s`",
+                                 beam->ast->name->text);
+    tn_help(check->diagnostics, d, "beams bear the walls of upper storeys, and the form has one storey");
+}
+
+static bool is_new(tn_check *check, const tn_checked_form *form, const tn_ast_form_clause *ast)
+{
+    uint32_t first = tn_form_beam_named(form, ast->name->text);
+    if (first != TN_NONE) {
+        tn_form_twice(check, &ast->name->node.span, &form->beams[first].ast->name->node.span, "beam ", ast->name->text);
+        return false;
+    }
+    tn_check_part_name(check, form, ast->name);
+    return true;
+}
+
+void tn_check_beams(tn_check *check, tn_checked_form *form)
+{
+    form->beams = TN_NEW_ARRAY(check->arena, tn_checked_beam, TN_BEAMS_MAX);
+    for (TN_EACH(const tn_ast_form_clause, ast, form->ast->clauses)) {
+        if (!form->beams || ast->part != TN_PART_BEAM || !is_new(check, form, ast))
+            continue;
+        if (!tn_check_room(check, form->beam_count, TN_BEAMS_MAX, "beam", ast->node.span, "leave some of them out"))
+            return;
+        tn_checked_beam beam = {ast, tn_form_length(check, ast->length), tn_form_length(check, ast->high),
+                                tn_form_length(check, ast->going)};
+        if (!is_there(check, &beam) || !is_as_wide_as_walls(check, form, &beam) || !leaves_room(check, form, &beam))
+            continue;
+        check_taken(check, form, &beam);
+        form->beams[form->beam_count++] = beam;
     }
 }
 

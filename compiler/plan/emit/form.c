@@ -233,6 +233,19 @@ static void emit_layers(tn_emit *emit, const tn_checked_form *form)
     }
 }
 
+static void emit_beams(tn_emit *emit, const tn_checked_form *form)
+{
+    for (uint32_t i = 0; i < form->beam_count; i++) {
+        const tn_checked_beam *beam = &form->beams[i];
+        tn_builder_add_BEAM(emit->builder, &(tn_beam_record){.name = text(emit, beam->ast->name),
+                                                             .doc = text(emit, beam->ast->doc),
+                                                             .wide = beam->wide,
+                                                             .high = beam->high,
+                                                             .span = beam->span,
+                                                             PLACE(beam->ast->node.span)});
+    }
+}
+
 static void emit_form(tn_emit *emit, tn_checked_form *form)
 {
     uint32_t counts[] = {(uint32_t)tn_builder_count(emit->builder, TN_SECTION_STOREY),
@@ -242,7 +255,8 @@ static void emit_form(tn_emit *emit, tn_checked_form *form)
                          (uint32_t)tn_builder_count(emit->builder, TN_SECTION_FACE_LINE),
                          (uint32_t)tn_builder_count(emit->builder, TN_SECTION_TILE),
                          (uint32_t)tn_builder_count(emit->builder, TN_SECTION_MATERIAL),
-                         (uint32_t)tn_builder_count(emit->builder, TN_SECTION_LAYER)};
+                         (uint32_t)tn_builder_count(emit->builder, TN_SECTION_LAYER),
+                         (uint32_t)tn_builder_count(emit->builder, TN_SECTION_BEAM)};
     form->storey_first = counts[0];
     form->rule_first = counts[2];
     form->shape_first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_SHAPE);
@@ -256,6 +270,7 @@ static void emit_form(tn_emit *emit, tn_checked_form *form)
     emit_tiles(emit, form);
     emit_materials(emit, form);
     emit_layers(emit, form);
+    emit_beams(emit, form);
     tn_builder_add_FORM(emit->builder, &(tn_form_record){.name = tn_builder_string(emit->builder, form->name),
                                                          .doc = text(emit, form->ast->doc),
                                                          .schema = form->schema->index,
@@ -284,6 +299,8 @@ static void emit_form(tn_emit *emit, tn_checked_form *form)
                                                          .layer_first = counts[7],
                                                          .layer_count = form->layer_count,
                                                          .guard = form->guard,
+                                                         .beam_first = counts[8],
+                                                         .beam_count = form->beam_count,
                                                          PLACE(form->ast->top.node.span)});
 }
 

@@ -26,6 +26,7 @@ typedef enum tn_form_part {
     TN_PART_WAY,
     TN_PART_HEADROOM,
     TN_PART_GUARD,
+    TN_PART_BEAM,
     TN_PART_ALLOW
 } tn_form_part;
 
@@ -88,8 +89,9 @@ typedef struct tn_ast_form_clause {
     const tn_ast_word *detail; /* wall: `outside`, `party` or NULL; section: the word after the zone; outside: the side,
                                   or NULL; material: per what; flight: how it turns, or NULL */
     const tn_ast_word *length; /* storey, thickness, an opening's width; a material's price, or NULL */
-    const tn_ast_word *high;   /* opening; the most that a flight's steps rise */
-    const tn_ast_word *low, *going; /* flight: the least that its steps rise, and how deep they are, or NULL */
+    const tn_ast_word *high;   /* opening, beam; the most that a flight's steps rise */
+    const tn_ast_word *low, *going; /* flight: the least that its steps rise, and how deep they are, or NULL; going: a
+                                       beam's span */
     const tn_ast_word *winders;     /* flight: how many wedges a turn has, or NULL */
     bool outdoor;                   /* function */
     tn_face_relation relation;

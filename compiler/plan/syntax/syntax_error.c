@@ -36,6 +36,7 @@ static const struct {
     {"allow", "allow W204", NULL},
     {"flight", "flight stairs wide 3' rise 6\"..7 3/4\" going 10\"",
      "flight stairs wide 900mm rise 150mm..195mm going 250mm"},
+    {"beam", "beam girder wide 6\" high 10\" span 16'", "beam girder wide 150mm high 250mm span 5m"},
     {"face", "face cell(kitchen) beside cell(hall) = open | door", NULL},
     {"tile", "tile bed for bedroom { against wall  item bed left 2'..7', back 0..6'8\" }",
      "tile bed for bedroom { against wall  item bed left 600mm..2.1m, back 0..2m }"},

@@ -13,7 +13,7 @@ static const unsigned char part_colours[TN_SOLID_COUNT][3] = {
     [TN_SOLID_POST] = {240, 238, 232},    [TN_SOLID_DECK] = {222, 210, 190},   [TN_SOLID_ROOFDECK] = {222, 210, 190},
     [TN_SOLID_ITEM] = {205, 170, 125},    [TN_SOLID_ROOF] = {110, 120, 132},   [TN_SOLID_PANE] = {170, 208, 232},
     [TN_SOLID_LEAF] = {176, 92, 60},      [TN_SOLID_FLIGHT] = {205, 186, 150}, [TN_SOLID_GUARD] = {150, 132, 112},
-    [TN_SOLID_GABLE] = {240, 238, 232},
+    [TN_SOLID_GABLE] = {240, 238, 232},   [TN_SOLID_BEAM] = {150, 120, 90},
 };
 
 void tn_house_mesh_colours(const tn_house_form *form, unsigned char colours[TN_HOUSE_GROUPS_MAX][3])

@@ -452,6 +452,29 @@ static void fill(tn_ifc *ifc, uint32_t number, unsigned opening, unsigned where,
     keep_common(ifc, door ? IFC_DOORS : IFC_WINDOWS, number, part);
 }
 
+/* What beams take of a wall's box is cut out of it: of the end of a partition that meets them. */
+static void put_pockets(tn_ifc *ifc, uint32_t face, unsigned wall, unsigned within, const tn_box *all, bool turned)
+{
+    tn_stepfile *step = &ifc->step;
+    for (size_t i = 0; i < ifc->solids->box_count; i++) {
+        const tn_solid *s = &ifc->solids->boxes[i];
+        tn_rectangle at = tn_rectangles_common(&(tn_rectangle){all->x0, all->x1, all->y0, all->y1},
+                                               &(tn_rectangle){s->at.x0, s->at.x1, s->at.y0, s->at.y1});
+        tn_box pocket = {at.x0, at.x1, at.y0, at.y1, s->at.z0, all->z1};
+        if (s->kind != TN_SOLID_BEAM || at.x0 >= at.x1 || at.y0 >= at.y1 || pocket.z0 >= pocket.z1 ||
+            s->at.z1 <= all->z0)
+            continue;
+        unsigned number = face * (unsigned)ifc->solids->box_count + (unsigned)i,
+                 where = turned ? tn_stepfile_turned(step, within, (double)(pocket.y0 - all->y0),
+                                                     (double)(all->x1 - pocket.x0), (double)(pocket.z0 - all->z0), 3)
+                                : place_within(ifc, within, all, &pocket);
+        unsigned opening = tn_stepfile_add(step, "IFCOPENINGELEMENT('%s',$,$,$,$,#%u,#%u,$,.RECESS.)",
+                                           tn_stepfile_guid(step, "pocket", number).text, where, shape(ifc, &pocket));
+        tn_stepfile_add(step, "IFCRELVOIDSELEMENT('%s',$,$,$,#%u,#%u)",
+                        tn_stepfile_guid(step, "pocket of wall", number).text, wall, opening);
+    }
+}
+
 /* The wall of a face as one box, and the opening that is cut out of it. `first` is the first of its boxes. */
 static void put_wall(tn_ifc *ifc, size_t first, tn_stepfile_list *list)
 {
@@ -482,6 +505,7 @@ static void put_wall(tn_ifc *ifc, size_t first, tn_stepfile_list *list)
     keep(ifc, s, wall, list);
     keep_common(ifc, IFC_WALLS, s->of, wall);
     put_volume(ifc, wall, "Qto_WallBaseQuantities", volume);
+    put_pockets(ifc, s->of, wall, where, &all, turned);
     if (!open)
         return;
     unsigned at = turned ? tn_stepfile_turned(step, where, (double)(hole.y0 - all.y0), (double)(all.x1 - hole.x0),
@@ -513,10 +537,13 @@ static void put_box(tn_ifc *ifc, const tn_solid *s, unsigned number, tn_stepfile
     tn_stepfile *step = &ifc->step;
     const tn_module *module = ifc->house->form->module;
     unsigned where = place(ifc, &s->at), body = shape(ifc, &s->at);
-    bool item = s->kind == TN_SOLID_ITEM, post = s->kind == TN_SOLID_POST;
-    const char *name = item ? tn_text(module, module->TILE_BOX_records[s->item].name) : tn_solid_kind_text(s->kind);
+    bool item = s->kind == TN_SOLID_ITEM, post = s->kind == TN_SOLID_POST, beam = s->kind == TN_SOLID_BEAM;
+    const char *name = item   ? tn_text(module, module->TILE_BOX_records[s->item].name)
+                       : beam ? tn_text(module, tn_form_beam(ifc->house->form, s->item)->name)
+                              : tn_solid_kind_text(s->kind);
     const char *type = item                           ? "NOTDEFINED"
                        : post                         ? "COLUMN"
+                       : beam                         ? "BEAM"
                        : s->kind == TN_SOLID_ROOFDECK ? "ROOF"
                        : s->of == 0                   ? "BASESLAB"
                                                       : "FLOOR";
@@ -524,10 +551,15 @@ static void put_box(tn_ifc *ifc, const tn_solid *s, unsigned number, tn_stepfile
         tn_stepfile_add(step, "%s('%s',$,'%s',$,$,#%u,#%u,$,.%s.)",
                         item   ? "IFCFURNITURE"
                         : post ? "IFCCOLUMN"
+                        : beam ? "IFCBEAM"
                                : "IFCSLAB",
                         tn_stepfile_guid(step, "box", number).text, tn_stepfile_text(name).text, where, body, type);
     if (!item)
-        put_volume(ifc, part, post ? "Qto_ColumnBaseQuantities" : "Qto_SlabBaseQuantities", volume_of(&s->at));
+        put_volume(ifc, part,
+                   post   ? "Qto_ColumnBaseQuantities"
+                   : beam ? "Qto_BeamBaseQuantities"
+                          : "Qto_SlabBaseQuantities",
+                   volume_of(&s->at));
     keep(ifc, s, part, list);
 }
 

@@ -144,7 +144,7 @@ static tn_status check_tile(const tn_checker *checker, const tn_form_record *for
 }
 
 /* The boxes of a form's tiles follow one another; an item is named by the first of its name among them. Guards have the
- * number behind all of them. */
+ * number behind all of them; then come beams. */
 static tn_status check_material(const tn_checker *checker, const tn_form_record *form, uint32_t index)
 {
     const tn_module *module = checker->module;
@@ -155,7 +155,7 @@ static tn_status check_material(const tn_checker *checker, const tn_form_record 
     if (material->where != TN_NO_RECORD && !decides(checker, material->where, TN_FUNCTION_SECTION, form->schema))
         return tn_refuse(checker, "material %u names a function of another kind or schema", index);
     return check_items(checker, material->part_first, material->part_count,
-                       TN_OF_COUNT + form->layer_count + form->opening_count + boxes + 1);
+                       TN_OF_COUNT + form->layer_count + form->opening_count + boxes + 1 + form->beam_count);
 }
 
 /* They stand by what they are layers of, and fill it. */
@@ -171,6 +171,21 @@ static tn_status check_layers(const tn_checker *checker, const tn_form_record *f
     for (uint32_t of = 0; of < TN_LAYERED_COUNT; of++)
         if (thick[of] > 0 && thick[of] != tn_layered_thick(form, (tn_layered)of))
             return tn_refuse(checker, "layers of a %s are not as thick as it is", tn_names_LAYERED[of]);
+    return TN_OK;
+}
+
+/* They lie in the planes of walls, as thick as these at most, and take all of the thickness of a partition. */
+static tn_status check_beams(const tn_checker *checker, const tn_form_record *form)
+{
+    for (uint32_t i = 0; i < form->beam_count; i++) {
+        const tn_beam_record *beam = &checker->module->BEAM_records[form->beam_first + i];
+        bool fits = beam->wide % 2 == 0 && beam->wide >= form->partition && beam->wide <= form->wall;
+        for (uint32_t k = 0; k + 1 < form->storey_count; k++)
+            fits = fits &&
+                   beam->high < checker->module->STOREY_records[form->storey_first + k].height - form->deck;
+        if (!fits)
+            return tn_refuse(checker, "beam %u fits in no wall", form->beam_first + i);
+    }
     return TN_OK;
 }
 
@@ -315,6 +330,8 @@ static tn_status check_form(const tn_checker *checker, uint32_t index)
         status = check_choice(checker, form, form->choice_first + i);
     if (status == TN_OK)
         status = check_layers(checker, form);
+    if (status == TN_OK)
+        status = check_beams(checker, form);
     if (status == TN_OK)
         status = check_rules(checker, form);
     if (status == TN_OK)
@@ -532,6 +549,7 @@ static const tn_section sections[] = {
     TN_SECTION_CELL_RULE,     TN_SECTION_OPENING,    TN_SECTION_FACE_LINE,  TN_SECTION_TILE,
     TN_SECTION_TILE_BOX,      TN_SECTION_HOUSE_ITEM, TN_SECTION_HOUSE_RULE, TN_SECTION_HOUSE_LIBRARY,
     TN_SECTION_HOUSE_CLAUSE,  TN_SECTION_MEETING,    TN_SECTION_MATERIAL,   TN_SECTION_LAYER,
+    TN_SECTION_BEAM,
     TN_SECTION_HOUSE_MEASURE, TN_SECTION_HOUSE_TERM, TN_SECTION_HOUSE_SUM,  TN_SECTION_STRINGS};
 
 static const tn_operand_rules operands[] = {

@@ -107,6 +107,11 @@ static inline const tn_opening_record *tn_form_flight(const tn_house_form *form,
     return declared && declared->turn != TN_TURN_NONE ? declared : NULL;
 }
 
+static inline const tn_beam_record *tn_form_beam(const tn_house_form *form, uint32_t beam)
+{
+    return &form->module->BEAM_records[form->record->beam_first + beam];
+}
+
 /* The number of the first part that is an opening or flight: those of the form's layers come before. */
 static inline uint32_t tn_form_openings_part(const tn_house_form *form)
 {

@@ -614,6 +614,15 @@ static bool are_walls_priced(const tn_house_form *form, uint32_t by)
            is_built_priced(form, TN_OF_PARTITION, by);
 }
 
+/* The same of beams, and of what they take the place of. */
+static bool are_beams_priced(const tn_house_form *form)
+{
+    bool priced = are_walls_priced(form, BY_ANY) || is_priced(form, TN_OF_POST, BY_ANY);
+    for (uint32_t i = 0; !priced && i < form->record->beam_count; i++)
+        priced = is_priced(form, tn_form_guard_part(form) + 1 + i, BY_ANY);
+    return priced;
+}
+
 /* The same of roofs, and of the walls below them, which have the layers of party walls above these. */
 static bool are_roofs_priced(const tn_house_form *form)
 {
@@ -690,6 +699,9 @@ static tn_status check_openings(const tn_frontier *frontier, tn_error *error)
     if (form->record->guard > 0 && is_priced(form, tn_form_guard_part(form), BY_ANY))
         return refuse(frontier, "where guards stand depends on all trays around a flight or a void",
                       "give guards no price, or ask nothing about costs", error);
+    if (form->record->beam_count > 0 && are_beams_priced(form))
+        return refuse(frontier, "where beams stand, in the place of what, depends on all trays along a wall",
+                      "ask about single houses, whose costs have them, or leave the lines `beam` out to count", error);
     for (uint32_t i = 0; i < form->record->opening_count; i++) {
         const tn_opening_record *opening = &form->module->OPENING_records[form->record->opening_first + i];
         if (walls && is_full(form, opening))

@@ -18,6 +18,7 @@ const uint32_t tn_solid_groups[TN_SOLID_COUNT] = {
     [TN_SOLID_ITEM] = TN_GROUP_ITEM,    [TN_SOLID_ROOF] = TN_GROUP_ROOF,     [TN_SOLID_PANE] = TN_GROUP_PANE,
     [TN_SOLID_LEAF] = TN_GROUP_LEAF,    [TN_SOLID_FLIGHT] = TN_GROUP_FLIGHT, [TN_SOLID_GUARD] = TN_GROUP_GUARD,
     [TN_SOLID_GABLE] = TN_GROUP_WALL,
+    [TN_SOLID_BEAM] = TN_GROUP_FLOOR,
 };
 
 void tn_house_projection_clear(tn_house_projection *projection)

@@ -12,6 +12,7 @@ typedef enum tn_mark_layer {
     TN_MARK_DOOR,
     TN_MARK_STAIR,
     TN_MARK_VOID, /* dashed */
+    TN_MARK_BEAM, /* overhead, dashed */
     TN_MARK_GROUND,
     TN_MARK_DIMENSION,
     TN_MARK_NAME,

@@ -117,6 +117,27 @@ static void put_void(tn_rectangle r, tn_marks *marks)
     tn_marks_line(marks, TN_MARK_VOID, x0, y1, x1, y0);
 }
 
+/* Both sides of the beams overhead. */
+static tn_status put_beams(const tn_house *house, uint32_t storey, tn_marks *marks, tn_error *error)
+{
+    tn_flights flights;
+    tn_bearing bearing = {0};
+    tn_status status = tn_flights_stand(house, &flights, error);
+    if (status == TN_OK)
+        status = tn_house_bearing(house, &flights, &bearing, error);
+    for (size_t i = 0; i < bearing.count; i++) {
+        const tn_unborne *b = &bearing.items[i];
+        double x0 = (double)b->at.x0, x1 = (double)b->at.x1, y0 = (double)b->at.y0, y1 = (double)b->at.y1;
+        if (b->beam == TN_NO_RECORD || b->storey != storey + 1)
+            continue;
+        tn_marks_line(marks, TN_MARK_BEAM, x0, y0, b->in_y ? x0 : x1, b->in_y ? y1 : y0);
+        tn_marks_line(marks, TN_MARK_BEAM, b->in_y ? x1 : x0, b->in_y ? y0 : y1, x1, y1);
+    }
+    tn_bearing_clear(&bearing);
+    tn_flights_clear(&flights);
+    return status;
+}
+
 /* ---- tags of doors and windows */
 
 #define TAG_RADIUS 0.95 /* of a circle around two signs, in the size of lettering */
@@ -210,7 +231,7 @@ static tn_status put_symbols(const tn_planned *p, tn_marks *marks, tn_error *err
     for (uint32_t i = 0; i < house->cell_count; i++)
         if (house->cells[i].storey == p->storey && house->cells[i].open)
             put_void(tn_cell_clear(house, i), marks);
-    return status;
+    return status == TN_OK && house->form->record->beam_count > 0 ? put_beams(house, p->storey, marks, error) : status;
 }
 
 /* ---- dimensions, outside of the house; u, v as drawn */

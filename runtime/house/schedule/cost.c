@@ -18,12 +18,12 @@ uint32_t tn_form_parts(const tn_house_form *form)
     uint32_t boxes = 0;
     for (uint32_t i = 0; i < form->record->tile_count; i++)
         boxes += form->module->TILE_records[form->record->tile_first + i].box_count;
-    return tn_form_openings_part(form) + form->record->opening_count + boxes + 1;
+    return tn_form_openings_part(form) + form->record->opening_count + boxes + 1 + form->record->beam_count;
 }
 
 uint32_t tn_form_guard_part(const tn_house_form *form)
 {
-    return tn_form_parts(form) - 1;
+    return tn_form_parts(form) - form->record->beam_count - 1;
 }
 
 /* The first box that has the name of this one and is no space to keep. */
@@ -73,6 +73,8 @@ uint32_t tn_solid_made_part(const tn_house *house, tn_solid_kind kind, uint32_t 
                named_first(house->form, item) - first_box(house->form);
     case TN_SOLID_GUARD:
         return tn_form_guard_part(house->form);
+    case TN_SOLID_BEAM:
+        return tn_form_guard_part(house->form) + 1 + item;
     default:
         return TN_OF_ROOF;
     }
@@ -85,6 +87,8 @@ const char *tn_form_part_text(const tn_house_form *form, uint32_t part)
         return tn_names_OF[part];
     if (part == tn_form_guard_part(form))
         return tn_solid_kind_text(TN_SOLID_GUARD);
+    if (part > tn_form_guard_part(form))
+        return tn_text(module, tn_form_beam(form, part - tn_form_guard_part(form) - 1)->name);
     part -= TN_OF_COUNT;
     if (part < form->record->layer_count)
         return tn_text(module, tn_form_layer(form, part)->name);

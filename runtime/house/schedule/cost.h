@@ -42,7 +42,7 @@ static inline bool tn_form_has_costs(const tn_house_form *form)
 /* How many numbers of parts a form has: some of them, of later boxes of the same name, are never used. */
 uint32_t tn_form_parts(const tn_house_form *form);
 
-/* That of guards. */
+/* That of guards; beams follow. */
 uint32_t tn_form_guard_part(const tn_house_form *form);
 
 /* The part that a layer of a form is: the first of its name. */

@@ -238,6 +238,8 @@ static void put_solids(const tn_house *house, const tn_solids *solids, tn_json *
         tn_json_count(json, "of", s->of);
         if (s->kind == TN_SOLID_ITEM)
             tn_json_string(json, "name", tn_text(module, module->TILE_BOX_records[s->item].name));
+        if (s->kind == TN_SOLID_BEAM)
+            tn_json_string(json, "name", tn_text(module, tn_form_beam(house->form, s->item)->name));
         put_box(json, s->at);
         put_layers(house, s, json);
         tn_json_object_end(json);

@@ -1,0 +1,1 @@
+house house-beams.plan #1:0 --library all
