@@ -168,6 +168,20 @@ tn_ast_list tn_expand_items(tn_rule_expansion *expansion, tn_ast_list items)
 
 /* ---- conditions */
 
+/* The first part of a sum, or the sum, that is no number and was not reported as broken; NULL: all are. */
+static const tn_ast_expr *find_no_number(const tn_ast_expr *value)
+{
+    bool number = value->kind == TN_EXPR_NUMBER || value->kind == TN_EXPR_BROKEN;
+    if (!tn_is_arithmetic(value->kind))
+        return number ? NULL : value;
+    for (TN_EACH(const tn_ast_expr, part, value->parts)) {
+        const tn_ast_expr *found = find_no_number(part);
+        if (found)
+            return found;
+    }
+    return NULL;
+}
+
 const tn_ast_word *tn_expand_constant(tn_rule_expansion *expansion, tn_ast_expr *value, tn_span place)
 {
     tn_check *check = expansion->check;
@@ -177,11 +191,12 @@ const tn_ast_word *tn_expand_constant(tn_rule_expansion *expansion, tn_ast_expr 
     tn_ast_word *word = TN_NEW(check->arena, tn_ast_word);
     if (!word)
         return NULL;
-    bool good = tn_is_arithmetic(value->kind) && tn_check_figure(check, NULL, value, &amount);
+    const tn_ast_expr *wrong = find_no_number(value);
+    bool good = !wrong && tn_is_arithmetic(value->kind) && tn_check_figure(check, NULL, value, &amount);
     bool whole = good && amount.value && !strchr(amount.value, '/') && strlen(amount.value) < 18 &&
                  (amount.power == 0 || amount.power == 1);
-    if (!tn_is_arithmetic(value->kind) && value->kind != TN_EXPR_BROKEN) {
-        tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_ARGUMENT, value->node.span, "a number is needed here");
+    if (wrong) {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_ARGUMENT, wrong->node.span, "a number is needed here");
         tn_note(check->diagnostics, d, &place, "it is used here");
         tn_help(check->diagnostics, d, "give a number such as `2`, or a length such as `12'` or `3.6m`");
     }
