@@ -50,6 +50,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
     tn_ast_form form;
     tn_ast_form_clause form_clause;
     tn_ast_tile_part tile_part;
+    tn_ast_symbol_line symbol_line;
     tn_box_side box_side;
     void *node;
 }
@@ -81,7 +82,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token FLIGHT "`flight`" RISE "`rise`" GOING "`going`" TURN "`turn`" WINDERS "`winders`"
 %token GLAZED "`glazed`" LEAFLESS "`leafless`" NEAR "`near`" SLIDING "`sliding`" MATERIAL "`material`" PRICE "`price`" PER "`per`"
 %token FACE "`face`" BESIDE "`beside`" ALONG "`along`" ACROSS "`across`" UNDER "`under`" OUTSIDE "`outside`"
-%token TILE "`tile`" FOR "`for`" AGAINST "`against`" DEEP "`deep`" ITEM "`item`"
+%token TILE "`tile`" FOR "`for`" AGAINST "`against`" DEEP "`deep`" ITEM "`item`" SYMBOL "`symbol`" LINE "`line`"
 %token LEFT "`left`" RIGHT "`right`" BACK "`back`" FRONT "`front`" UP "`up`" COLON "`:`"
 %token ABSENT "`-` for what is absent" OF_DEPTH "`:` before a depth"
 %token DOTS "`..`" LESS "`<`" AT_MOST "`<=`" UNEQUAL "`!=`" AT_LEAST "`>=`" GREATER "`>`"
@@ -105,10 +106,11 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <cond> condition cond_ors cond_and cond_ands cond_not cond_atom compare
 %type <form> form_head
 %type <form_clause> thickness relation price
-%type <tile_part> stretch_word
+%type <tile_part> stretch_word drawn
+%type <symbol_line> line_end
 %type <box_side> side_word
-%type <node> form_clause shape argument opening_part tile_part reach layer section_alternative section_item
-%type <list> form_clauses layers shapes arguments opening_parts tile_parts kinds or_names reaches section_items section_alternatives
+%type <node> form_clause shape argument opening_part tile_part symbol_line reach layer section_alternative section_item
+%type <list> form_clauses layers shapes arguments opening_parts tile_parts symbol_lines kinds or_names reaches section_items section_alternatives
 %type <word> size outside_side side number going turn winders section
 %type <expr> material_where
 %type <expr> walk_end cells cell_ors cell_and cell_ands cell_not sections section_ors section_and section_ands section_not
@@ -955,8 +957,28 @@ tile_part
     : AGAINST or_names                          { $$ = tn_ast_tile_part_new(parse, @$, (tn_ast_tile_part){.part = TN_TILE_AGAINST, .list = $2}); }
     | WIDE size DOTS size                       { $$ = tn_ast_tile_part_new(parse, @$, (tn_ast_tile_part){.part = TN_TILE_WIDE, .low = $2, .high = $4}); }
     | DEEP size DOTS size                       { $$ = tn_ast_tile_part_new(parse, @$, (tn_ast_tile_part){.part = TN_TILE_DEEP, .low = $2, .high = $4}); }
-    | stretch_word NAME doc                     { $1.name = $2; $1.doc = $3; $$ = tn_ast_tile_part_new(parse, @$, $1); }
-    | stretch_word NAME doc reaches             { $1.name = $2; $1.doc = $3; $1.list = $4; $$ = tn_ast_tile_part_new(parse, @$, $1); }
+    | stretch_word NAME doc drawn               { $1.name = $2; $1.doc = $3; $1.symbol = $4.symbol; $1.lines = $4.lines; $$ = tn_ast_tile_part_new(parse, @$, $1); }
+    | stretch_word NAME doc reaches drawn       { $1.name = $2; $1.doc = $3; $1.list = $4; $1.symbol = $5.symbol; $1.lines = $5.lines; $$ = tn_ast_tile_part_new(parse, @$, $1); }
+    ;
+
+drawn
+    : %empty                                    { $$ = (tn_ast_tile_part){.symbol = NULL}; }
+    | SYMBOL NAME                               { $$ = (tn_ast_tile_part){.symbol = $2}; }
+    | SYMBOL OPEN_BRACE symbol_lines CLOSE_BRACE
+                                                { $$ = (tn_ast_tile_part){.lines = $3}; }
+    ;
+
+symbol_lines
+    : symbol_line                               { $$ = tn_ast_one($1); }
+    | symbol_lines symbol_line                  { $$ = tn_ast_append($1, $2); }
+    ;
+
+symbol_line
+    : LINE line_end DOTS line_end               { $$ = tn_ast_symbol_line_new(parse, @$, $2, $4); }
+    ;
+
+line_end
+    : side_word size COMMA side_word size       { $$ = (tn_ast_symbol_line){.sides = {{$1, $4}}, .lengths = {{$2, $5}}}; }
     ;
 
 stretch_word

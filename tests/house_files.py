@@ -461,9 +461,9 @@ def read_dxf(path):
 
 
 def check_whole(title, drawing):
-    """No two lines of a layer lie in one line and touch: an edge is one line. (Not those of doors and stairs, which meet in their symbols.)"""
+    """No two lines of a layer lie in one line and touch: an edge is one line. (Not those of doors, stairs and furniture, which are symbols.)"""
     by_line = {}
-    for e in (e for e in drawing if e["0"] == "LINE" and e["8"] not in ("A-DOOR", "A-FLOR-STRS", "A-WALL-PATT")):
+    for e in (e for e in drawing if e["0"] == "LINE" and e["8"] not in ("A-DOOR", "A-FLOR-STRS", "A-WALL-PATT", "A-FURN", "P-FIXT", "A-FLOR-OVHD")):
         (a, b), (c, d) = (tuple(map(float, point)) for point in e["points"])
         for along, across, low, high in ((0, b, a, c), (1, a, b, d)):
             if abs((d - b) if along == 0 else (c - a)) < 1e-6:

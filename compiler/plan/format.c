@@ -203,6 +203,33 @@ static void put_clauses(tn_format *format, const size_t *starts, size_t count)
 
 /* ---- lines of a form */
 
+static bool starts_line(const tn_format *format, size_t i)
+{
+    return tn_format_is(format, i, "line");
+}
+
+/* A line of a tile; those of an item's symbol, in braces, stand on lines of their own. */
+static void put_tile_part(tn_format *format, size_t first, size_t last)
+{
+    size_t open = find(format, first, last, "{"), close = last - 1;
+    if (open == last) {
+        tn_format_fill(format, first, last, at_comma, true, 2 * BODY + CONTINUED, 0);
+        return;
+    }
+    tn_format_fill(format, first, open + 1, at_comma, true, 2 * BODY + CONTINUED, 0);
+    for (size_t i = open + 1, next; i < close; i = next) {
+        next = next_start(format, i, close, starts_line);
+        format->tokens[i].blank &= i > open + 1; /* none after the opening brace */
+        tn_format_gap(format, i, 3 * BODY, false);
+        tn_layout_line(&format->layout, 3 * BODY);
+        tn_format_fill(format, i, next, at_comma, true, 3 * BODY + CONTINUED, 0);
+    }
+    format->tokens[close].blank = false;
+    tn_format_gap(format, close, 3 * BODY, false);
+    tn_layout_line(&format->layout, 2 * BODY);
+    tn_format_put(format, close, 0);
+}
+
 static void put_tile(tn_format *format, size_t first, size_t last)
 {
     size_t open = find(format, first, last, "{"), close = last - 1;
@@ -212,7 +239,7 @@ static void put_tile(tn_format *format, size_t first, size_t last)
         format->tokens[i].blank &= i > open + 1; /* none after the opening brace */
         tn_format_gap(format, i, 2 * BODY, false);
         tn_layout_line(&format->layout, 2 * BODY);
-        tn_format_fill(format, i, next, at_comma, true, 2 * BODY + CONTINUED, 0);
+        put_tile_part(format, i, next);
     }
     format->tokens[close].blank = false;
     tn_format_gap(format, close, 2 * BODY, false);

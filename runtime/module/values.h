@@ -119,6 +119,14 @@ enum { TN_ROOF_OPEN = 1, TN_ROOF_ACROSS = 2 };
 #define TN_TILE_Y_TO_FRONT 16u
 #define TN_TILE_BOX_FLAGS 31u
 
+/* Of a line of an item's symbol: from which sides of the item its ends are measured, if not from left and back. */
+#define TN_LINE_X0_RIGHT 1u
+#define TN_LINE_Y0_FRONT 2u
+#define TN_LINE_X1_RIGHT 4u
+#define TN_LINE_Y1_FRONT 8u
+#define TN_LINE_SIDES 15u
+#define TN_SYMBOL_LINES_MAX 1000u /* of an item */
+
 /* ---- grammars that genomes are mapped through */
 
 #define TN_EDGE_LETTERS 3u /* EdgeX, EdgeY, EdgeZ */

@@ -188,7 +188,7 @@ is 'sections of a sheet that are beside the wall in the middle' "$(sed -n 's/^.-
 leftmost_cuts() {
     python3 - "$1" <<'PYTHON'
 import re, sys
-for path in re.findall(r'<path fill="#dbdbde" d="([^"]*)"', open(sys.argv[1]).read()):
+for path in re.findall(r'<path fill="#ededed" d="([^"]*)"', open(sys.argv[1]).read()):
     x = start = 0
     least = []
     for letter, numbers in re.findall(r"([A-Za-z])([^A-Za-z]*)", path):

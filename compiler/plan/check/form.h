@@ -76,6 +76,8 @@ typedef struct tn_checked_tile {
     tn_tile_box_record *boxes;        /* but for texts and places */
     const tn_ast_tile_part **box_ast; /* where each is written */
     uint32_t box_count;
+    tn_symbol_line_record *lines; /* of the boxes' symbols; a box has the first of its own counted among these */
+    uint32_t line_count;
 } tn_checked_tile;
 
 typedef struct tn_checked_material {

@@ -3,6 +3,7 @@
 
 #include "compiler/plan/check/form.h"
 #include "runtime/base/length.h"
+#include "runtime/base/nearest.h"
 
 static void bad_tile(tn_check *check, tn_span span, const char *message, const char *help)
 {
@@ -115,6 +116,76 @@ static void read_reach(tn_check *check, const tn_checked_form *form, const tn_as
     set_reach(reach, low, high, box);
 }
 
+/* ---- what plans show an item as */
+
+/* One end of a line: at one length across and one into the item, in any order. false: reported. */
+static bool read_end(tn_check *check, const tn_checked_form *form, const tn_ast_symbol_line *ast, int end,
+                     int64_t at[2], bool far[2])
+{
+    int first = axis_of(ast->sides[end][0]), second = axis_of(ast->sides[end][1]);
+    if (first + second != 1) {
+        bad_tile(check, ast->node.span, "an end of this line is not a place in the plan of the item",
+                 tn_form_in_unit(form, "write `line left 2\", back 0 .. right 2\", front 0`",
+                                 "write `line left 50mm, back 0 .. right 50mm, front 0`"));
+        return false;
+    }
+    for (int k = 0; k < 2; k++) {
+        at[axis_of(ast->sides[end][k])] = tn_form_length(check, ast->lengths[end][k]);
+        far[axis_of(ast->sides[end][k])] = is_far(ast->sides[end][k]);
+    }
+    return at[0] >= 0 && at[1] >= 0;
+}
+
+static void add_line(tn_check *check, const tn_checked_form *form, tn_checked_tile *tile, const tn_ast_symbol_line *ast)
+{
+    int64_t from[2], to[2];
+    bool from_far[2], to_far[2];
+    if (!read_end(check, form, ast, 0, from, from_far) || !read_end(check, form, ast, 1, to, to_far))
+        return;
+    tile->lines[tile->line_count++] =
+        (tn_symbol_line_record){.sides = (from_far[0] ? TN_LINE_X0_RIGHT : 0) | (from_far[1] ? TN_LINE_Y0_FRONT : 0) |
+                                         (to_far[0] ? TN_LINE_X1_RIGHT : 0) | (to_far[1] ? TN_LINE_Y1_FRONT : 0),
+                                .x0 = from[0],
+                                .y0 = from[1],
+                                .x1 = to[0],
+                                .y1 = to[1]};
+}
+
+static void report_symbol(tn_check *check, const tn_ast_word *word)
+{
+    char all[400];
+    const char *const *names = tn_names_SYMBOL + 1;
+    tn_word_list(names, TN_SYMBOL_COUNT - 1, all, sizeof all);
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_BAD_TILE, word->node.span, "there is no symbol `%s`", word->text);
+    const char *near = tn_nearest(word->text, names, TN_SYMBOL_COUNT - 1);
+    if (near)
+        tn_suggest(check->diagnostics, d, "%s", near);
+    else
+        tn_help(check->diagnostics, d, "symbols are %s; others are drawn by lines: `symbol { line ... }`", all);
+}
+
+static void read_symbol(tn_check *check, const tn_checked_form *form, tn_checked_tile *tile,
+                        const tn_ast_tile_part *part, tn_tile_box_record *box)
+{
+    box->line_first = tile->line_count;
+    if (part->part == TN_TILE_KEEPS && (part->symbol || part->lines.count)) {
+        bad_tile(check, part->node.span, "what is kept free is not drawn, and has a symbol", "leave `symbol` out");
+        return;
+    }
+    for (uint32_t i = 1; part->symbol && i < TN_SYMBOL_COUNT; i++)
+        if (tn_word_is(part->symbol, tn_names_SYMBOL[i]))
+            box->symbol = i;
+    if (part->symbol && box->symbol == TN_SYMBOL_NONE)
+        report_symbol(check, part->symbol);
+    if (!tn_check_room(check, part->lines.count, TN_SYMBOL_LINES_MAX + 1, "line of a symbol", part->node.span,
+                       "draw it by fewer lines"))
+        return;
+    for (TN_EACH(const tn_ast_symbol_line, line, part->lines))
+        add_line(check, form, tile, line);
+    box->line_count = tile->line_count - box->line_first;
+}
+
 static void add_box(tn_check *check, const tn_checked_form *form, tn_checked_tile *tile, const tn_ast_tile_part *part)
 {
     bool said[3] = {false};
@@ -125,6 +196,7 @@ static void add_box(tn_check *check, const tn_checked_form *form, tn_checked_til
     if (!tn_name_fits(check->diagnostics, part->name->text, part->name->node.span) ||
         !tn_check_room(check, tile->box_count, TN_TILE_BOXES_MAX, "item", part->node.span, "make two tiles of it"))
         return;
+    read_symbol(check, form, tile, part, &box);
     tile->box_ast[tile->box_count] = part;
     tile->boxes[tile->box_count++] = box;
 }
@@ -203,7 +275,11 @@ void tn_check_tile(tn_check *check, tn_checked_form *form, const tn_ast_form_cla
     tile.purposes = TN_NEW_ARRAY(check->arena, uint32_t, ast->list.count);
     tile.boxes = TN_NEW_ARRAY(check->arena, tn_tile_box_record, ast->parts.count);
     tile.box_ast = TN_NEW_ARRAY(check->arena, const tn_ast_tile_part *, ast->parts.count);
-    if (!tile.purposes || !tile.boxes || !tile.box_ast || !tile_is_new(check, form, ast->name) ||
+    size_t lines = 0;
+    for (TN_EACH(const tn_ast_tile_part, part, ast->parts))
+        lines += part->lines.count;
+    tile.lines = TN_NEW_ARRAY(check->arena, tn_symbol_line_record, lines + 1);
+    if (!tile.purposes || !tile.lines || !tile.boxes || !tile.box_ast || !tile_is_new(check, form, ast->name) ||
         !tn_check_room(check, form->tile_count, TN_TILES_MAX, "tile", ast->node.span, "leave some of them out"))
         return;
     read_purposes(check, form, &tile);

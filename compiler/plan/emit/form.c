@@ -184,6 +184,10 @@ static void emit_tiles(tn_emit *emit, const tn_checked_form *form)
             box.file = span.file;
             box.begin = span.begin;
             box.end = span.end;
+            const tn_symbol_line_record *lines = tile->lines + box.line_first;
+            box.line_first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_SYMBOL_LINE);
+            for (uint32_t k = 0; k < box.line_count; k++)
+                tn_builder_add_SYMBOL_LINE(emit->builder, &lines[k]);
             tn_builder_add_TILE_BOX(emit->builder, &box);
         }
         tn_builder_add_TILE(emit->builder,

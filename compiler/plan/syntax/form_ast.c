@@ -62,6 +62,18 @@ void *tn_ast_reach_new(tn_parse *parse, tn_span span, tn_ast_reach reach)
     return reach.low && reach.high ? node : NULL;
 }
 
+void *tn_ast_symbol_line_new(tn_parse *parse, tn_span span, tn_ast_symbol_line from, tn_ast_symbol_line to)
+{
+    MAKE(tn_ast_symbol_line);
+    *node = from;
+    for (int k = 0; k < 2; k++) {
+        node->sides[1][k] = to.sides[0][k];
+        node->lengths[1][k] = to.lengths[0][k];
+    }
+    node->node = (tn_ast_node){.span = span};
+    return node;
+}
+
 void *tn_ast_tile_part_new(tn_parse *parse, tn_span span, tn_ast_tile_part part)
 {
     MAKE(tn_ast_tile_part);

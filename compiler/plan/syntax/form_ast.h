@@ -73,6 +73,13 @@ typedef struct tn_ast_reach {
     const tn_ast_word *low, *high;
 } tn_ast_reach;
 
+/* A line of an item's symbol: its ends, each from a side so far and from another. */
+typedef struct tn_ast_symbol_line {
+    tn_ast_node node;
+    tn_box_side sides[2][2];
+    const tn_ast_word *lengths[2][2];
+} tn_ast_symbol_line;
+
 typedef enum tn_tile_part { TN_TILE_AGAINST, TN_TILE_WIDE, TN_TILE_DEEP, TN_TILE_ITEM, TN_TILE_KEEPS } tn_tile_part;
 typedef struct tn_ast_tile_part {
     tn_ast_node node;
@@ -80,6 +87,8 @@ typedef struct tn_ast_tile_part {
     const tn_ast_word *name, *doc; /* of an item or what is kept free */
     const tn_ast_word *low, *high; /* wide, deep */
     tn_ast_list list;              /* against: tn_ast_word; item, keep: tn_ast_reach */
+    const tn_ast_word *symbol;     /* of an item, or NULL */
+    tn_ast_list lines;             /* tn_ast_symbol_line: those that it is drawn by */
 } tn_ast_tile_part;
 
 typedef struct tn_ast_form_clause {
@@ -114,6 +123,7 @@ void *tn_ast_argument_new(tn_parse *parse, tn_span span, const tn_ast_word *word
 void *tn_ast_opening_part_new(tn_parse *parse, tn_span span, tn_ast_opening_part part);
 void *tn_ast_layer_new(tn_parse *parse, tn_span span, const tn_ast_word *name, const tn_ast_word *length);
 void *tn_ast_reach_new(tn_parse *parse, tn_span span, tn_ast_reach reach);
+void *tn_ast_symbol_line_new(tn_parse *parse, tn_span span, tn_ast_symbol_line from, tn_ast_symbol_line to);
 void *tn_ast_tile_part_new(tn_parse *parse, tn_span span, tn_ast_tile_part part);
 
 /* An alternative of `section(...)` with one more word before it; its last node is a tn_ast_shape. */

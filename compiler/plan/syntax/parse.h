@@ -44,6 +44,7 @@ typedef struct tn_parse {
     bool test_head;                 /* of `test`: neither its `with` nor its { */
     bool library_head;              /* of `library` */
     bool in_form, in_tile;          /* inside the braces of one */
+    bool in_symbol;                 /* and inside those of an item's symbol */
     bool in_braces;
     tn_span brace, tile_brace; /* the { that is open; that of the tile inside it */
     int held_token;            /* to be given out next; 0: none */

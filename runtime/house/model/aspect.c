@@ -101,13 +101,14 @@ static void write_title(const tn_house *house, const tn_aspect *aspect, char *te
     }
 }
 
-/* Doors are drawn open on plans; furniture is left out where it is not wanted. */
+/* Doors are drawn open on plans, and furniture by symbols; it is left out where it is not wanted. */
 static void drop_parts(tn_blocks *blocks, const tn_aspect *aspect)
 {
     size_t kept = 0;
     for (size_t i = 0; i < blocks->count; i++) {
         tn_solid_kind kind = blocks->items[i].kind;
-        if ((kind == TN_SOLID_LEAF && aspect->kind == TN_ASPECT_PLAN) || (kind == TN_SOLID_ITEM && aspect->bare))
+        bool plan = aspect->kind == TN_ASPECT_PLAN;
+        if ((kind == TN_SOLID_LEAF && plan) || (kind == TN_SOLID_ITEM && (plan || aspect->bare)))
             continue;
         blocks->items[kept++] = blocks->items[i];
     }
@@ -129,7 +130,7 @@ static void drop_above(const tn_house *house, tn_blocks *blocks, uint32_t storey
     blocks->count = kept;
 }
 
-static int64_t plan_level(const tn_house_form *form, uint32_t storey)
+int64_t tn_plan_level(const tn_house_form *form, uint32_t storey)
 {
     int64_t clear = tn_form_clear(form, storey);
     return form->level[storey] + (clear > PLAN_CUT_NM ? PLAN_CUT_NM : clear / 2);
@@ -173,7 +174,7 @@ static tn_status cut(const tn_house *house, const tn_aspect *aspect, tn_blocks *
     switch (aspect->kind) {
     case TN_ASPECT_PLAN:
         *axis = 2;
-        *at = (double)plan_level(house->form, aspect->storey);
+        *at = (double)tn_plan_level(house->form, aspect->storey);
         return tn_blocks_cut(blocks, 2, *at, false, error);
     case TN_ASPECT_SECTION_X:
         *axis = 0;
@@ -247,12 +248,14 @@ static bool misses(const tn_house *house, const tn_aspect *aspect, const tn_bloc
 tn_status tn_house_projection_mark(const tn_house *house, const tn_mark_style *style, tn_house_projection *projection,
                                    tn_error *error)
 {
+    tn_mark_style own = *style;
+    own.bare = projection->aspect.bare;
     tn_marks_clear(&projection->marks);
     switch (projection->aspect.kind) {
     case TN_ASPECT_AXONOMETRIC:
         return TN_OK;
     case TN_ASPECT_PLAN:
-        return tn_marks_plan(house, projection->aspect.storey, style, &projection->marks, error);
+        return tn_marks_plan(house, projection->aspect.storey, &own, &projection->marks, error);
     default:
         return tn_marks_levels(house, projection->low, projection->high, projection->aspect.kind != TN_ASPECT_ELEVATION,
                                style, &projection->marks, error);
@@ -344,6 +347,8 @@ tn_status tn_house_projection_take(const tn_house *house, const tn_solids *solid
         status =
             tn_blocks_mesh(&blocks, TN_GROUP_COUNT * (1 + (grouping ? grouping->more : 0)), &projection->mesh, error);
     }
+    if (status == TN_OK && axis < 0)
+        tn_house_face_floors(house, grouping, &projection->mesh);
     if (status == TN_OK)
         status =
             tn_house_lines(&projection->mesh, &projection->camera, axis >= 0, &(tn_line_weights){aspect, weight_of},

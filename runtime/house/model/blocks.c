@@ -445,6 +445,7 @@ static tn_status add_upright_cut(tn_blocks *to, const tn_house_block *b, const t
     double from = place_of(ends[0], 1 - axis), end = place_of(ends[1], 1 - axis);
     return add_cut(to,
                    (tn_cut_face){.kind = b->kind,
+                                 .item = b->item,
                                  .of = b->of,
                                  .at = {{from, ends[0]->low}, {end, ends[1]->low}, {end, ends[1]->high}, {from, ends[0]->high}}},
                    error);
@@ -513,7 +514,7 @@ static tn_status keep_below(tn_blocks *to, const tn_house_block *b, tn_block_pol
     for (size_t i = 0; i < part.count; i++)
         part.corners[i].high = level;
     for (size_t i = 1; status == TN_OK && i + 1 < part.count; i += 2) {
-        tn_cut_face face = {.kind = b->kind, .of = b->of};
+        tn_cut_face face = {.kind = b->kind, .of = b->of, .item = b->item};
         for (size_t k = 0; k < 4; k++) {
             size_t corner = k == 0 ? 0 : i + k - 1 < part.count ? i + k - 1 : part.count - 1;
             face.at[k][0] = part.corners[corner].x;

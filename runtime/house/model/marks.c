@@ -27,25 +27,34 @@ static void add(tn_marks *marks, tn_mark mark)
 
 void tn_marks_line(tn_marks *marks, tn_mark_layer layer, double u0, double v0, double u1, double v1)
 {
-    add(marks, (tn_mark){TN_MARK_LINE, layer, u0, v0, u1, v1, .high = 0});
+    add(marks, (tn_mark){.kind = TN_MARK_LINE, .layer = layer, .u0 = u0, .v0 = v0, .u1 = u1, .v1 = v1});
 }
 
 void tn_marks_leaf(tn_marks *marks, double u0, double v0, double u1, double v1, bool right)
 {
-    add(marks, (tn_mark){TN_MARK_LEAF, TN_MARK_DOOR, u0, v0, u1, v1, .right = right});
+    add(marks,
+        (tn_mark){.kind = TN_MARK_LEAF, .layer = TN_MARK_DOOR, .u0 = u0, .v0 = v0, .u1 = u1, .v1 = v1, .right = right});
 }
 
 void tn_marks_text(tn_marks *marks, tn_mark_layer layer, double u, double v, double high, bool upright,
                    const char *text)
 {
-    tn_mark mark = {TN_MARK_TEXT, layer, u, v, u, v, .high = high, .upright = upright};
+    tn_mark mark = {
+        .kind = TN_MARK_TEXT, .layer = layer, .u0 = u, .v0 = v, .u1 = u, .v1 = v, .high = high, .upright = upright};
     tn_utf8_copy(text, sizeof mark.text, mark.text);
     add(marks, mark);
 }
 
 void tn_marks_circle(tn_marks *marks, tn_mark_layer layer, double u, double v, double radius)
 {
-    add(marks, (tn_mark){TN_MARK_CIRCLE, layer, u, v, u + radius, v, .high = 0});
+    add(marks, (tn_mark){.kind = TN_MARK_CIRCLE, .layer = layer, .u0 = u, .v0 = v, .u1 = u + radius, .v1 = v});
+}
+
+void tn_marks_item(tn_marks *marks, const tn_marked_item *item, double u0, double v0, double u1, double v1)
+{
+    add(marks,
+        (tn_mark){
+            .kind = TN_MARK_ITEM, .layer = TN_MARK_FURNITURE, .u0 = u0, .v0 = v0, .u1 = u1, .v1 = v1, .item = *item});
 }
 
 void tn_marks_turn(tn_marks *marks)
@@ -154,6 +163,8 @@ void tn_marks_chain(tn_marks *marks, const tn_house *house, double *places, size
 
 /* ---- levels */
 
+#define EARTH 1.2 /* how deep it is shown where it is cut, in the size of lettering */
+
 /* Heights of roofs are fractions: they are written to the nearest 1/8" or millimetre, as one would build them. */
 static double rounded(bool us, double v)
 {
@@ -207,6 +218,8 @@ tn_status tn_marks_levels(const tn_house *house, const double low[2], const doub
     double lettering = style->lettering, ground = -(double)form->record->deck, u = low[0] - lettering,
            beyond = 3 * lettering;
     tn_marks_line(marks, TN_MARK_GROUND, low[0] - beyond, ground, high[0] + beyond, ground);
+    if (cut && marks->count)
+        marks->items[marks->count - 1].high = 2 * EARTH * lettering;
     double last = -1e30;
     for (uint32_t k = 0; k <= form->record->storey_count; k++) {
         bool top = k == form->record->storey_count;

@@ -18,6 +18,7 @@ typedef enum tn_mark_layer {
     TN_MARK_NAME,
     TN_MARK_TAG,     /* of doors and windows */
     TN_MARK_SECTION, /* where the house is cut */
+    TN_MARK_FURNITURE,
     TN_MARK_LAYERS
 } tn_mark_layer;
 
@@ -26,15 +27,28 @@ typedef enum tn_mark_kind {
     TN_MARK_TEXT,   /* in the middle of (u0, v0), so high; upright: read from the right */
     TN_MARK_CIRCLE, /* about (u0, v0), through (u1, v1) */
     TN_MARK_SPAN,   /* a dimension from (u0, v0) to (u1, v1), its text so high; or below the line; or empty */
-    TN_MARK_LEAF    /* of a door, hinged at (u0, v0) and open to (u1, v1); shut to its left, or to its right */
+    TN_MARK_LEAF,   /* of a door, hinged at (u0, v0) and open to (u1, v1); shut to its left, or to its right */
+    TN_MARK_ITEM    /* a symbol, with its corner at (u0, v0) and the opposite one at (u1, v1) */
 } tn_mark_kind;
+
+/* A thing as it is drawn: its TILE_BOX record, its symbol, and how large it is along its back and away from it, in
+ * nanometres. quarter: where its back is, 0 above, then at the right and so on; mirrored: from left to right.
+ * free_sides: bits for its back, its front, its left and its right, at which a chair has room. */
+typedef struct tn_marked_item {
+    uint32_t box;
+    tn_item_symbol symbol;
+    double wide, deep;
+    uint32_t quarter, free_sides;
+    bool mirrored;
+} tn_marked_item;
 
 typedef struct tn_mark {
     tn_mark_kind kind;
     tn_mark_layer layer;
     double u0, v0, u1, v1;
-    double high;
+    double high; /* of what is written; of the ground where it is cut: twice how deep the earth is shown */
     bool upright, below, right;
+    tn_marked_item item;
     char text[48];
 } tn_mark;
 
@@ -59,7 +73,7 @@ typedef struct tn_section_place {
  * tags, and for dimensions of openings. sections: what is shown in plans. */
 typedef struct tn_mark_style {
     double lettering;
-    bool us, coarse;
+    bool us, coarse, bare;
     const tn_section_place *sections;
     size_t section_count;
 } tn_mark_style;
@@ -85,12 +99,20 @@ void tn_marks_text(tn_marks *marks, tn_mark_layer layer, double u, double v, dou
 
 void tn_marks_circle(tn_marks *marks, tn_mark_layer layer, double u, double v, double radius);
 
+void tn_marks_item(tn_marks *marks, const tn_marked_item *item, double u0, double v0, double u1, double v1);
+
 /* Turns all marks by half about the origin, but for what is written. */
 void tn_marks_turn(tn_marks *marks);
 
 /* Those of the plan of a storey, whose front is below: u is -x, v is -y. TN_MEMORY. */
 tn_status tn_marks_plan(const tn_house *house, uint32_t storey, const tn_mark_style *style, tn_marks *marks,
                         tn_error *error);
+
+struct tn_taken;
+
+/* ---- marks_items.c: what stands in the rooms of a storey, as it is drawn; taken: turned as the plan is. TN_MEMORY. */
+tn_status tn_marks_items(const tn_house *house, uint32_t storey, const struct tn_taken *taken, tn_marks *marks,
+                         tn_error *error);
 
 /* Those of what is seen from the side: the ground and the levels, left of what lies between low and high; at its right
  * the heights of rooms if it is cut. TN_MEMORY. */

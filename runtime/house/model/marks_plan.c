@@ -44,10 +44,10 @@ static void put_ascent(const tn_house *house, const tn_face *face, const tn_flig
                  (double)record->going / 1e6);
     double u0 = (double)flight->path[0][0], v0 = (double)flight->path[0][1], du = (double)flight->path[1][0] - u0,
            dv = (double)flight->path[1][1] - v0, leg = fabs(du) + fabs(dv),
-           along = (tn_mark_width(text) / 2 + 0.3) * style->lettering;
+           along = (tn_mark_width(text) / 2 + 0.3) * style->lettering + TREAD_NM / 4;
     if (2 * along > leg)
         snprintf(text, sizeof text, "UP");
-    along = (tn_mark_width(text) / 2 + 0.3) * style->lettering;
+    along = (tn_mark_width(text) / 2 + 0.3) * style->lettering + TREAD_NM / 4;
     tn_marks_text(marks, TN_MARK_STAIR, u0 + du / leg * along, v0 + dv / leg * along, style->lettering,
                   fabs(dv) > fabs(du), text);
 }
@@ -173,7 +173,9 @@ static tn_status tag_window(const tn_house *house, const tn_face *face, const ch
     tn_box hole;
     if (!tn_house_hole(house, face, &hole))
         return TN_OK;
-    bool low = face->side == TN_HOUSE_LEFT || face->side == TN_HOUSE_BACK, in_y = face->at.x0 == face->at.x1;
+    uint32_t cell = tn_face_sheltered(house, face);
+    tn_house_side side = tn_face_side(face, cell == TN_NO_CELL ? face->first : cell);
+    bool low = side == TN_HOUSE_LEFT || side == TN_HOUSE_BACK, in_y = face->at.x0 == face->at.x1;
     double aside = 1.3 * style->lettering, u = (double)(hole.x0 + hole.x1) / 2, v = (double)(hole.y0 + hole.y1) / 2;
     if (in_y)
         u = low ? (double)hole.x0 - aside : (double)hole.x1 + aside;
@@ -237,7 +239,7 @@ static tn_status put_symbols(const tn_planned *p, tn_marks *marks, tn_error *err
 /* ---- dimensions, outside of the house; u, v as drawn */
 
 /* How far the first chain is from the walls, in the size of lettering: tags and marks of sections stand before it. */
-#define FIRST_CHAIN 5.0
+#define FIRST_CHAIN 5.5
 #define FIRST_CHAIN_COARSE 3.2
 #define NEXT_CHAIN 2.8
 
@@ -263,8 +265,8 @@ static size_t find_openings(const tn_planned *p, const struct tn_plan_side *side
     for (size_t i = 0; i < p->house->face_count; i++) {
         const tn_face *face = &p->house->faces[i];
         tn_box hole;
-        if (face->storey == p->storey && face->relation == TN_FACE_OUTSIDE && face->side == side->of &&
-            tn_house_hole(p->house, face, &hole))
+        uint32_t cell = face->storey == p->storey ? tn_face_sheltered(p->house, face) : TN_NO_CELL;
+        if (cell != TN_NO_CELL && tn_face_side(face, cell) == side->of && tn_house_hole(p->house, face, &hole))
             put_place(places, &count, side->upright ? hole.y0 : hole.x0, side->upright ? hole.y1 : hole.x1);
     }
     return count;
@@ -377,6 +379,8 @@ tn_status tn_marks_plan(const tn_house *house, uint32_t storey, const tn_mark_st
         status = put_tags(&p, marks, error);
     tn_marks_turn(marks);
     turn_taken(&p.taken);
+    if (status == TN_OK && !style->bare)
+        status = tn_marks_items(house, storey, &p.taken, marks, error);
     if (status == TN_OK && (!put_dimensions(&p, marks) || marks->failed))
         status = tn_fail_memory(error);
     if (status == TN_OK)

@@ -32,7 +32,7 @@ typedef struct tn_house_block {
 /* A polygon in the plane of a cut. Coordinates are the two other axes. */
 typedef struct tn_cut_face {
     tn_solid_kind kind;
-    uint32_t of;
+    uint32_t of, item;
     double at[4][2];
 } tn_cut_face;
 
@@ -58,6 +58,9 @@ tn_status tn_blocks_cut(tn_blocks *blocks, int axis, double at, bool above, tn_e
 /* The boundary of the union, closed and two-manifold, in triangles; nanometres, z up, with the groups of the blocks, of
  * which there are `groups`. It has no names for them. */
 tn_status tn_blocks_mesh(const tn_blocks *blocks, uint32_t groups, tn_mesh *mesh, tn_error *error);
+
+/* How high above the lowest floor a plan of the storey is cut: 4' above its own, or in the middle of a lower one. */
+int64_t tn_plan_level(const tn_house_form *form, uint32_t storey);
 
 /* ---- leaves.c */
 

@@ -1,4 +1,4 @@
-/* The colours of drawings: of a form's materials, or of kinds of parts. */
+/* The colours and hatches of drawings: of a form's materials, or of kinds of parts. */
 #include <stdlib.h>
 
 #include "runtime/house/picture/draw_parts.h"
@@ -74,5 +74,43 @@ tn_status tn_house_layer_colours(const tn_house *house, double (**made)[3], tn_e
         for (int k = 0; k < 3; k++)
             of[i][k] = CUT_LIGHT + (1 - CUT_LIGHT) * (double)(colour >> (16 - 8 * k) & 255) / 255;
     }
+    return TN_OK;
+}
+
+/* ---- hatches */
+
+/* Walls of different materials have different hatches, in the order in which the form declares them. */
+static tn_hatch hatch_of_wall(const tn_house *house, const tn_cut_face *cut)
+{
+    static const tn_hatch hatches[] = {TN_HATCH_MASONRY, TN_HATCH_DIAGONAL, TN_HATCH_TIMBER};
+    uint32_t material = tn_part_material(house, tn_solid_made_part(house, cut->kind, cut->of, cut->item));
+    return material == TN_NO_RECORD
+               ? TN_HATCH_DIAGONAL
+               : hatches[(material - house->form->record->material_first) % (sizeof hatches / sizeof *hatches)];
+}
+
+static tn_hatch hatch_of(const tn_house *house, const tn_cut_face *cut)
+{
+    switch (tn_solid_groups[cut->kind]) {
+    case TN_GROUP_WALL:
+        return hatch_of_wall(house, cut);
+    case TN_GROUP_FLOOR:
+    case TN_GROUP_FLIGHT:
+        return TN_HATCH_CONCRETE;
+    case TN_GROUP_ROOF:
+        return TN_HATCH_TIMBER;
+    default:
+        return TN_HATCH_DIAGONAL;
+    }
+}
+
+tn_status tn_house_hatches(const tn_house *house, const tn_house_projection *projection, tn_hatch **made,
+                           tn_error *error)
+{
+    *made = malloc((projection->cut_count + 1) * sizeof **made);
+    if (!*made)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i < projection->cut_count; i++)
+        (*made)[i] = hatch_of(house, &projection->cuts[i]);
     return TN_OK;
 }

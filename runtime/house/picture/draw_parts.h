@@ -6,12 +6,6 @@
 #include "runtime/house/picture/draw.h"
 #include "runtime/scene/view.h"
 
-/* How wide a line of a weight is, in points. */
-static inline double tn_line_points(tn_line_weight weight)
-{
-    return tn_line_weight_widths[weight] * 0.72 / 25.4;
-}
-
 /* Lettering whose capitals are 2.5 mm high, in points: those of DejaVu Sans take this share of its size. */
 #define TN_CAPITALS 0.729
 #define TN_LETTERING (2.5 * 72 / 25.4 / TN_CAPITALS)
@@ -22,6 +16,7 @@ typedef struct tn_house_drawn {
     const tn_house_form *form;  /* lent */
     double (*layer_colours)[3]; /* [layers of the form] where they are cut; owned, NULL if there are none */
     tn_house_projection projection;
+    tn_hatch *hatches;      /* [cuts of the projection]; owned */
     tn_view *view;          /* what is filled with colour: in elevations and in space, otherwise NULL */
     double low[2], high[2]; /* with its marks, nanometres */
     double x, y;            /* of its lower left corner, points */
@@ -42,6 +37,11 @@ void tn_house_palette(const tn_house_form *form, tn_aspect_kind kind, double pal
 /* The colours of the layers of a house's form where they are cut, light, by their materials in its section; NULL if it
  * has none. The caller frees *made. TN_MEMORY. */
 tn_status tn_house_layer_colours(const tn_house *house, double (**made)[3], tn_error *error);
+
+/* The hatch of each of a projection's cuts: by the material of what is cut, or by what it is. The caller frees *made.
+ * TN_MEMORY. */
+tn_status tn_house_hatches(const tn_house *house, const tn_house_projection *projection, tn_hatch **made,
+                           tn_error *error);
 
 /* The share of light that comes from all around: more where surfaces have the colours of materials, as bricks and
  * slates in the shade are to be told apart. */

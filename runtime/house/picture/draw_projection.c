@@ -4,11 +4,13 @@
 
 #include "runtime/draw/type.h"
 #include "runtime/house/picture/draw_parts.h"
+#include "runtime/house/picture/draw_symbols.h"
 
 /* Before the drawing's coordinates: u, v in nanometres. */
 typedef struct tn_drawing_frame {
     tn_paint *paint;
     double x, y, scale;
+    const tn_house_form *form;
 } tn_drawing_frame;
 
 static double place_u(const tn_drawing_frame *f, double u)
@@ -23,45 +25,48 @@ static double place_v(const tn_drawing_frame *f, double v)
 
 /* ---- what was cut */
 
-#define HATCH_SIZE 1.6 /* of the pattern */
-
-static void trace_cuts(const tn_drawing_frame *f, const tn_house_projection *p, bool panes)
+/* Panes and leaves are filled; of the rest, whatever is hatched so, or (hatch < 0) all. */
+static bool trace_cuts(const tn_drawing_frame *f, const tn_house_drawn *drawn, bool panes, int hatch)
 {
+    const tn_house_projection *p = &drawn->projection;
+    bool any = false;
     tn_paint_new_path(f->paint);
     for (size_t i = 0; i < p->cut_count; i++) {
         uint32_t group = tn_solid_groups[p->cuts[i].kind];
-        if ((group == TN_GROUP_PANE || group == TN_GROUP_LEAF) != panes)
+        if ((group == TN_GROUP_PANE || group == TN_GROUP_LEAF) != panes ||
+            (hatch >= 0 && drawn->hatches[i] != (tn_hatch)hatch))
             continue;
+        any = true;
         tn_paint_new_sub_path(f->paint);
         for (int k = 0; k < 4; k++)
             tn_paint_line_to(f->paint, place_u(f, p->cuts[i].at[k][0]), place_v(f, p->cuts[i].at[k][1]));
         tn_paint_close_path(f->paint);
     }
+    return any;
 }
 
-static void hatch(const tn_drawing_frame *f)
+/* Fills the path with a pattern. */
+static void hatch_path(const tn_drawing_frame *f, tn_hatch hatch)
 {
     tn_paint_layer(f->paint, TN_LAYER_HATCH);
-    tn_paint_line_width(f->paint, tn_line_points(TN_STROKE_HATCH));
-    tn_paint_colour(f->paint, 0.25, 0.25, 0.28);
-    tn_paint_hatch(f->paint, TN_HATCH_DIAGONAL, HATCH_SIZE);
+    tn_paint_weight(f->paint, TN_WEIGHT_HATCH);
+    tn_paint_colour(f->paint, 0.2, 0.2, 0.2);
+    tn_paint_hatch(f->paint, hatch, 1);
 }
 
-/* In colour where that covers what is below it. */
-static void fill_cuts(const tn_drawing_frame *f, const tn_house_projection *p)
+static void fill_cuts(const tn_drawing_frame *f, const tn_house_drawn *drawn)
 {
-    bool colour = tn_paint_covers(f->paint);
-    if (colour) {
-        trace_cuts(f, p, true);
+    if (tn_paint_covers(f->paint)) {
+        trace_cuts(f, drawn, true, -1);
         tn_paint_colour(f->paint, 0.2, 0.35, 0.5);
         tn_paint_fill(f->paint);
+        trace_cuts(f, drawn, false, -1);
+        tn_paint_colour(f->paint, 0.93, 0.93, 0.93);
+        tn_paint_fill(f->paint);
     }
-    trace_cuts(f, p, false);
-    if (colour) {
-        tn_paint_colour(f->paint, 0.86, 0.86, 0.87);
-        tn_paint_fill_keep(f->paint);
-    }
-    hatch(f);
+    for (int hatch = 0; hatch < TN_HATCH_COUNT; hatch++)
+        if (trace_cuts(f, drawn, false, hatch))
+            hatch_path(f, (tn_hatch)hatch);
 }
 
 /* ---- layers of what was cut */
@@ -108,7 +113,7 @@ static void fill_layers(const tn_drawing_frame *f, const tn_house_drawn *drawn)
     for (size_t i = 0; i < p->layer_count; i++)
         if (is_drawn(f, &p->layers[i]) && p->layers[i].main)
             trace_layer(f, &p->layers[i]);
-    hatch(f);
+    hatch_path(f, TN_HATCH_DIAGONAL);
 }
 
 static void paint_joints(const tn_drawing_frame *f, const tn_house_projection *p)
@@ -119,37 +124,52 @@ static void paint_joints(const tn_drawing_frame *f, const tn_house_projection *p
             trace_line(f, &p->joints[i]);
     tn_paint_layer(f->paint, TN_LAYER_HATCH);
     tn_paint_colour(f->paint, 0.1, 0.1, 0.1);
-    tn_paint_line_width(f->paint, tn_line_points(TN_STROKE_THIN));
+    tn_paint_weight(f->paint, TN_WEIGHT_THIN);
     tn_paint_stroke(f->paint);
 }
 
 /* ---- edges */
 
-/* The layers of each kind of part, where it is seen and where it is cut. */
-static const tn_layer part_layers[TN_GROUP_COUNT][2] = {
+/* The layer of an edge: of what is seen of a part, and of what is cut. */
+static const tn_layer edge_layers[TN_GROUP_COUNT][2] = {
     [TN_GROUP_WALL] = {TN_LAYER_WALL, TN_LAYER_WALL_CUT}, [TN_GROUP_FLOOR] = {TN_LAYER_FLOOR, TN_LAYER_FLOOR_CUT},
     [TN_GROUP_ROOF] = {TN_LAYER_ROOF, TN_LAYER_ROOF_CUT}, [TN_GROUP_ITEM] = {TN_LAYER_FURNITURE, TN_LAYER_FURNITURE},
     [TN_GROUP_PANE] = {TN_LAYER_WINDOW, TN_LAYER_WINDOW}, [TN_GROUP_LEAF] = {TN_LAYER_DOOR, TN_LAYER_DOOR},
     [TN_GROUP_GUARD] = {TN_LAYER_GUARD, TN_LAYER_GUARD},  [TN_GROUP_FLIGHT] = {TN_LAYER_STAIR, TN_LAYER_STAIR},
 };
 
-static tn_layer layer_of(const tn_drawn_line *line)
+static const tn_weight weights[TN_STROKE_WEIGHTS] = {[TN_STROKE_CUT] = TN_WEIGHT_CUT,
+                                                     [TN_STROKE_SEEN] = TN_WEIGHT_SEEN,
+                                                     [TN_STROKE_THIN] = TN_WEIGHT_THIN,
+                                                     [TN_STROKE_HATCH] = TN_WEIGHT_HATCH};
+
+static void paint_lines_of(const tn_drawing_frame *f, const tn_house_projection *p, tn_line_weight weight,
+                           uint32_t group, bool cut)
 {
-    return part_layers[line->group % TN_GROUP_COUNT][line->cut];
+    size_t count = 0;
+    tn_paint_new_path(f->paint);
+    for (size_t i = 0; i < p->line_count; i++) {
+        const tn_drawn_line *line = &p->lines[i];
+        if (line->weight != weight || line->group % TN_GROUP_COUNT != group || line->cut != cut)
+            continue;
+        trace_line(f, line);
+        count++;
+    }
+    tn_paint_layer(f->paint, edge_layers[group][cut]);
+    if (count)
+        tn_paint_stroke(f->paint);
 }
 
-static void paint_lines(const tn_drawing_frame *f, const tn_house_projection *p, tn_line_weight weight)
+/* The lightest first. */
+static void paint_lines(const tn_drawing_frame *f, const tn_house_projection *p)
 {
-    tn_paint_new_path(f->paint);
     tn_paint_colour(f->paint, 0, 0, 0);
-    tn_paint_line_width(f->paint, tn_line_points(weight));
     tn_paint_line_cap(f->paint, TN_CAP_ROUND);
-    for (int layer = TN_LAYER_NONE + 1; layer < TN_LAYER_COUNT; layer++) {
-        for (size_t i = 0; i < p->line_count; i++)
-            if (p->lines[i].weight == weight && (int)layer_of(&p->lines[i]) == layer)
-                trace_line(f, &p->lines[i]);
-        tn_paint_layer(f->paint, (tn_layer)layer);
-        tn_paint_stroke(f->paint);
+    for (int weight = TN_STROKE_WEIGHTS - 1; weight >= TN_STROKE_CUT; weight--) {
+        tn_paint_weight(f->paint, weights[weight]);
+        for (uint32_t group = 0; group < TN_GROUP_COUNT; group++)
+            for (int cut = 0; cut < 2; cut++)
+                paint_lines_of(f, p, (tn_line_weight)weight, group, cut);
     }
     tn_paint_line_cap(f->paint, TN_CAP_BUTT);
 }
@@ -157,21 +177,22 @@ static void paint_lines(const tn_drawing_frame *f, const tn_house_projection *p,
 /* ---- marks */
 
 typedef struct mark_pen {
-    tn_line_weight weight;
-    double grey, dash;
     tn_layer layer;
+    tn_weight weight;
+    double grey, dash;
 } mark_pen;
 
 static const mark_pen pens[TN_MARK_LAYERS] = {
-    [TN_MARK_DOOR] = {TN_STROKE_THIN, 0, 0, TN_LAYER_DOOR},
-    [TN_MARK_STAIR] = {TN_STROKE_THIN, 0, 0, TN_LAYER_STAIR},
-    [TN_MARK_VOID] = {TN_STROKE_THIN, 0.3, 3, TN_LAYER_OVERHEAD},
-    [TN_MARK_BEAM] = {TN_STROKE_THIN, 0, 3, TN_LAYER_OVERHEAD},
-    [TN_MARK_GROUND] = {TN_STROKE_CUT, 0, 0, TN_LAYER_GROUND},
-    [TN_MARK_DIMENSION] = {TN_STROKE_THIN, 0, 0, TN_LAYER_DIMENSION},
-    [TN_MARK_NAME] = {TN_STROKE_THIN, 0, 0, TN_LAYER_ROOM},
-    [TN_MARK_TAG] = {TN_STROKE_THIN, 0, 0, TN_LAYER_SYMBOL},
-    [TN_MARK_SECTION] = {TN_STROKE_CUT, 0, 0, TN_LAYER_SYMBOL},
+    [TN_MARK_DOOR] = {TN_LAYER_DOOR, TN_WEIGHT_THIN, 0, 0},
+    [TN_MARK_STAIR] = {TN_LAYER_STAIR, TN_WEIGHT_THIN, 0, 0},
+    [TN_MARK_VOID] = {TN_LAYER_OVERHEAD, TN_WEIGHT_THIN, 0.3, 3},
+    [TN_MARK_BEAM] = {TN_LAYER_OVERHEAD, TN_WEIGHT_THIN, 0, 3},
+    [TN_MARK_GROUND] = {TN_LAYER_GROUND, TN_WEIGHT_CUT, 0, 0},
+    [TN_MARK_DIMENSION] = {TN_LAYER_DIMENSION, TN_WEIGHT_THIN, 0, 0},
+    [TN_MARK_NAME] = {TN_LAYER_ROOM, TN_WEIGHT_THIN, 0, 0},
+    [TN_MARK_TAG] = {TN_LAYER_SYMBOL, TN_WEIGHT_THIN, 0, 0},
+    [TN_MARK_SECTION] = {TN_LAYER_SYMBOL, TN_WEIGHT_CUT, 0, 0},
+    [TN_MARK_FURNITURE] = {TN_LAYER_FURNITURE, TN_WEIGHT_THIN, 0, 0},
 };
 
 /* A leaf that stands open upwards from its hinge, and the quarter through which it goes, to its right. */
@@ -179,7 +200,7 @@ static void draw_leaf(tn_paint *paint, const void *of)
 {
     double wide = *(const double *)of;
     tn_paint_layer(paint, TN_LAYER_DOOR);
-    tn_paint_line_width(paint, tn_line_points(TN_STROKE_THIN));
+    tn_paint_weight(paint, TN_WEIGHT_THIN);
     tn_paint_move_to(paint, 0, 0);
     tn_paint_line_to(paint, 0, -wide);
     tn_paint_stroke(paint);
@@ -213,7 +234,7 @@ static void paint_circle(const tn_drawing_frame *f, const tn_mark *m)
     tn_paint_new_sub_path(f->paint);
     tn_paint_arc(f->paint, place_u(f, m->u0), place_v(f, m->v0), fabs(m->u1 - m->u0) * f->scale, 0, 2 * M_PI);
     tn_paint_close_path(f->paint);
-    if (m->layer == TN_MARK_TAG) {
+    if (m->layer == TN_MARK_TAG && tn_paint_covers(f->paint)) {
         tn_paint_colour(f->paint, 1, 1, 1);
         tn_paint_fill_keep(f->paint);
         tn_paint_colour(f->paint, 0, 0, 0);
@@ -228,7 +249,7 @@ static void paint_text(const tn_drawing_frame *f, const tn_mark *m)
     tn_paint_translate(f->paint, place_u(f, m->u0), place_v(f, m->v0));
     if (m->upright)
         tn_paint_rotate(f->paint, -M_PI / 2);
-    if (m->layer == TN_MARK_NAME || m->layer == TN_MARK_STAIR) {
+    if ((m->layer == TN_MARK_NAME || m->layer == TN_MARK_STAIR) && tn_paint_covers(f->paint)) {
         tn_paint_translucent(f->paint, 1, 1, 1, 0.72);
         tn_paint_rectangle(f->paint, -half, -0.6 * high, 2 * half, 1.2 * high);
         tn_paint_fill(f->paint);
@@ -247,52 +268,78 @@ static void paint_line(const tn_drawing_frame *f, const tn_mark *m)
     tn_paint_stroke(f->paint);
 }
 
+/* The ground, and where it is cut the earth below it. */
+static void paint_earth(const tn_drawing_frame *f, const tn_mark *m)
+{
+    double x = place_u(f, m->u0), deep = m->high / 2 * f->scale;
+    tn_paint_new_path(f->paint);
+    tn_paint_rectangle(f->paint, x, place_v(f, m->v0), place_u(f, m->u1) - x, deep);
+    hatch_path(f, TN_HATCH_EARTH);
+}
+
+static void paint_shape(const tn_drawing_frame *f, const tn_mark *m)
+{
+    switch (m->kind) {
+    case TN_MARK_TEXT:
+        paint_text(f, m);
+        break;
+    case TN_MARK_LEAF:
+        paint_leaf(f, m);
+        break;
+    case TN_MARK_CIRCLE:
+        paint_circle(f, m);
+        break;
+    case TN_MARK_SPAN:
+        paint_span(f, m);
+        break;
+    case TN_MARK_ITEM:
+        tn_paint_layer(f->paint, tn_symbol_is_fixture(m->item.symbol) ? TN_LAYER_FIXTURE : TN_LAYER_FURNITURE);
+        tn_draw_symbol(f->paint, f->form, &m->item, place_u(f, m->u0), place_v(f, m->v0), f->scale);
+        break;
+    default:
+        paint_line(f, m);
+    }
+}
+
 static void paint_mark(const tn_drawing_frame *f, const tn_mark *m)
 {
     const mark_pen *pen = &pens[m->layer];
+    if (m->layer == TN_MARK_GROUND && m->high > 0)
+        paint_earth(f, m);
     tn_paint_layer(f->paint, pen->layer);
-    if (m->kind == TN_MARK_TEXT) {
-        paint_text(f, m);
-        return;
-    }
+    tn_paint_weight(f->paint, pen->weight);
     tn_paint_colour(f->paint, pen->grey, pen->grey, pen->grey);
-    tn_paint_line_width(f->paint, tn_line_points(pen->weight));
     tn_paint_dash(f->paint, &pen->dash, pen->dash > 0, 0);
-    if (m->kind == TN_MARK_LEAF)
-        paint_leaf(f, m);
-    else if (m->kind == TN_MARK_SPAN)
-        paint_span(f, m);
-    else if (m->kind == TN_MARK_CIRCLE)
-        paint_circle(f, m);
-    else
-        paint_line(f, m);
+    paint_shape(f, m);
     tn_paint_dash(f->paint, NULL, 0, 0);
 }
 
 static tn_drawing_frame frame_of(const tn_canvas *canvas, const tn_house_drawn *drawn, double points_per_nm)
 {
     return (tn_drawing_frame){tn_canvas_paint(canvas), drawn->x - drawn->low[0] * points_per_nm,
-                              drawn->y + drawn->low[1] * points_per_nm, points_per_nm};
+                              drawn->y + drawn->low[1] * points_per_nm, points_per_nm, drawn->form};
 }
 
 void tn_draw_projection(const tn_canvas *canvas, const tn_house_drawn *drawn, double points_per_nm)
 {
+    tn_paint *paint = tn_canvas_paint(canvas);
     const tn_house_projection *p = &drawn->projection;
     double palette[TN_PALETTE_MAX][3];
     tn_drawing_frame f = frame_of(canvas, drawn, points_per_nm);
     tn_house_palette(drawn->form, p->aspect.kind, palette);
     tn_view_place place = {
         f.x, f.y, f.scale, 0, tn_house_ambient(drawn->form, p->aspect.kind), (const double(*)[3])palette, 0};
-    if (drawn->view)
+    tn_paint_save(paint);
+    if (drawn->view && tn_paint_covers(paint))
         tn_view_paint(canvas, drawn->view, &place);
-    fill_cuts(&f, p);
-    if (p->layer_count > 0 && tn_paint_covers(f.paint))
+    fill_cuts(&f, drawn);
+    if (p->layer_count > 0 && tn_paint_covers(paint))
         fill_layers(&f, drawn);
     paint_joints(&f, p);
-    for (int weight = TN_STROKE_WEIGHTS - 1; weight >= TN_STROKE_CUT; weight--)
-        paint_lines(&f, p, (tn_line_weight)weight);
+    paint_lines(&f, p);
     for (size_t i = 0; i < p->marks.count; i++)
         paint_mark(&f, &p->marks.items[i]);
+    tn_paint_restore(paint);
 }
 
 /* ---- what is lit up */

@@ -2,10 +2,12 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "runtime/draw/scales.h"
 #include "runtime/draw/type.h"
 #include "runtime/house/picture/draw_parts.h"
+#include "runtime/house/picture/draw_tables.h"
 
 #define MARGIN 28.0
 #define GAP 26.0
@@ -16,7 +18,10 @@
 #define LEGIBLE_METRIC 100u /* scales at which a plan of a house can be read: 1:100, 1/8" */
 #define LEGIBLE_FEET 96u
 #define TN_SECTIONS_MOST 26 /* they have letters */
-#define VIEW_WIDTH 820.0    /* the most that one drawing takes, in points */
+#define BLOCK_WIDTH 320.0   /* of the title block, in points */
+#define BLOCK_HEIGHT 92.0
+#define FOOT_GAP 12.0
+#define VIEW_WIDTH 820.0 /* the most that one drawing takes, in points */
 #define VIEW_HEIGHT 620.0
 
 typedef struct sheet {
@@ -29,8 +34,10 @@ typedef struct sheet {
     uint32_t scale;
     double points;        /* a nanometre, in points */
     double width, height; /* of the page */
-    double foot;          /* room for notes and the scale bar */
-    double spare;         /* height of the page that nothing needs */
+    double foot;          /* room for tables, notes, the title block or the scale bar */
+    tn_sheet_tables tables;
+    size_t deep;  /* rows of the tables */
+    double spare; /* height of the page that nothing needs */
 } sheet;
 
 tn_status tn_house_view_take(const tn_solids *solids, const tn_aspect *aspect, const tn_house *house,
@@ -43,6 +50,8 @@ tn_status tn_house_view_take(const tn_solids *solids, const tn_aspect *aspect, c
     tn_status status = tn_house_projection_take(house, solids, aspect, by, &drawn->projection, error);
     if (status == TN_OK)
         status = tn_house_layer_colours(house, &drawn->layer_colours, error);
+    if (status == TN_OK)
+        status = tn_house_hatches(house, &drawn->projection, &drawn->hatches, error);
     if (status == TN_OK) {
         tn_house_projection *p = &drawn->projection;
         tn_house_colour_groups(&p->mesh);
@@ -64,6 +73,7 @@ void tn_house_drawn_clear(tn_house_drawn *drawn)
 {
     tn_view_free(drawn->view);
     free(drawn->layer_colours);
+    free(drawn->hatches);
     tn_house_projection_clear(&drawn->projection);
 }
 
@@ -72,6 +82,7 @@ static void clear(sheet *s)
     for (size_t i = 0; s->drawn && i < s->drawing->count; i++)
         tn_house_drawn_clear(&s->drawn[i]);
     free(s->drawn);
+    tn_sheet_tables_clear(&s->tables);
 }
 
 /* ---- laying out */
@@ -135,9 +146,15 @@ static size_t measure_row(const sheet *s, size_t first, double most, double *acr
     return count;
 }
 
+/* One drawing has its title above it, a sheet a title block. */
+static bool is_sheet(const sheet *s)
+{
+    return s->drawing->count > 1;
+}
+
 static double top_of(const sheet *s)
 {
-    return MARGIN + (s->drawing->title ? HEADING : 0);
+    return MARGIN + (s->drawing->title && !is_sheet(s) ? HEADING : 0);
 }
 
 /* Is x from the right to the left in it, and is it the only drawing in its row of the sheet? */
@@ -191,9 +208,19 @@ static void set_rows(sheet *s, double room, double wrap, double *most, double *d
     *down = y - GAP;
 }
 
+/* The foot of a page so wide: tables beside the title block, below both the notes. */
+static void set_foot(sheet *s, double width)
+{
+    s->deep = tn_sheet_tables_deep(&s->tables, width - 2 * MARGIN - BLOCK_WIDTH - FOOT_GAP,
+                                   (size_t)(BLOCK_HEIGHT / TN_TABLE_LEADING));
+    s->foot = 2 * FOOT_GAP + fmax(BLOCK_HEIGHT, (double)s->deep * TN_TABLE_LEADING) +
+              NOTE_LEADING * NOTE_LINES * (double)s->drawing->note_count;
+}
+
 /* Does everything fit on a page of this size? */
 static bool fits(sheet *s, double width, double height)
 {
+    set_foot(s, width);
     double most, down, room = width - 2 * MARGIN;
     set_rows(s, room, room, &most, &down);
     s->width = width;
@@ -346,17 +373,17 @@ static void paint_drawing(const sheet *s, const tn_canvas *canvas, size_t i, siz
     tn_paint_view_end(paint);
 }
 
-/* A bar of four feet or metres, in black and white, at the right of the foot. */
-static void paint_bar(const sheet *s, tn_paint *paint, double y)
+/* A bar of four feet or metres, in black and white, that ends there. */
+static void paint_bar(const sheet *s, tn_paint *paint, double right, double y)
 {
     char text[64];
     int64_t unit = s->metric ? INT64_C(1000000000) : TN_FOOT_NM * 4;
-    double step = (double)unit * s->points, x = s->width - MARGIN - 4 * step;
+    double step = (double)unit * s->points, x = right - 4 * step;
     tn_scale_write(s->scale, s->metric, text, sizeof text);
     tn_paint_face(paint, TN_LETTERING, false);
     tn_paint_colour(paint, 0, 0, 0);
     tn_type_line(paint, x - 8, y + 4, TN_ALIGN_RIGHT, text);
-    tn_paint_line_width(paint, 0.5);
+    tn_paint_weight(paint, TN_WEIGHT_HATCH);
     for (int i = 0; i <= 4; i++) {
         tn_length_write_style(unit * i, tn_house_length_style(s->house), text, sizeof text);
         if (i % 2 == 0)
@@ -375,7 +402,7 @@ static void paint_foot(const sheet *s, tn_paint *paint)
     double y = s->height - MARGIN - s->foot + 14,
            bar = (double)(s->metric ? 1000000000 : TN_FOOT_NM * 4) * s->points * 4;
     double room = s->width - 2 * MARGIN - bar - 90;
-    paint_bar(s, paint, y);
+    paint_bar(s, paint, s->width - MARGIN, y);
     if (s->drawing->count == 1 && s->drawing->aspects[0].kind == TN_ASPECT_AXONOMETRIC && room < 120)
         room = 120;
     tn_paint_face(paint, TN_LETTERING, false);
@@ -385,18 +412,80 @@ static void paint_foot(const sheet *s, tn_paint *paint)
         y += NOTE_LEADING * tn_type_paragraph(paint, MARGIN, y, room, NOTE_LEADING, NOTE_LINES, s->drawing->notes[i]);
 }
 
+/* What the drawings of a sheet are, and how they are measured. */
+static void paint_particulars(const sheet *s, tn_paint *paint, double x, double y)
+{
+    static const char *const kinds[] = {[TN_ASPECT_PLAN] = "plans",
+                                        [TN_ASPECT_SECTION_X] = "sections",
+                                        [TN_ASPECT_SECTION_Y] = "sections",
+                                        [TN_ASPECT_ELEVATION] = "elevations",
+                                        [TN_ASPECT_AXONOMETRIC] = "views"};
+    char text[128] = "";
+    size_t used = 0;
+    for (size_t i = 0; i < s->drawing->count; i++) {
+        const char *kind = kinds[s->drawing->aspects[i].kind];
+        if (!strstr(text, kind))
+            used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", used ? ", " : "", kind);
+    }
+    tn_paint_face(paint, TN_LETTERING, false);
+    tn_type_fit(paint, x, y, TN_ALIGN_LEFT, BLOCK_WIDTH - 2 * FOOT_GAP, text);
+    snprintf(text, sizeof text, "areas are net, dimensions in %s",
+             s->style.us                                               ? "feet and inches"
+             : tn_house_length_style(s->house) == TN_STYLE_MILLIMETRES ? "millimetres"
+                                                                       : "metres");
+    tn_type_fit(paint, x, y + NOTE_LEADING + 2, TN_ALIGN_LEFT, BLOCK_WIDTH - 2 * FOOT_GAP, text);
+}
+
+/* At the lower right of a sheet: the house, what is drawn, and the scale. */
+static void paint_block(const sheet *s, tn_paint *paint, double x, double y)
+{
+    tn_paint_layer(paint, TN_LAYER_TITLE);
+    tn_paint_colour(paint, 0, 0, 0);
+    tn_paint_weight(paint, TN_WEIGHT_CUT);
+    tn_paint_new_path(paint);
+    tn_paint_rectangle(paint, x, y, BLOCK_WIDTH, BLOCK_HEIGHT);
+    tn_paint_stroke(paint);
+    tn_paint_weight(paint, TN_WEIGHT_THIN);
+    tn_paint_move_to(paint, x, y + 24);
+    tn_paint_line_to(paint, x + BLOCK_WIDTH, y + 24);
+    tn_paint_move_to(paint, x, y + 58);
+    tn_paint_line_to(paint, x + BLOCK_WIDTH, y + 58);
+    tn_paint_stroke(paint);
+    tn_paint_face(paint, 13, true);
+    if (s->drawing->title)
+        tn_type_fit(paint, x + FOOT_GAP, y + 17, TN_ALIGN_LEFT, BLOCK_WIDTH - 2 * FOOT_GAP, s->drawing->title);
+    paint_particulars(s, paint, x + FOOT_GAP, y + 37);
+    paint_bar(s, paint, x + BLOCK_WIDTH - 2 * FOOT_GAP, y + 66);
+}
+
+static void paint_sheet_foot(const sheet *s, tn_paint *paint)
+{
+    double y = s->height - MARGIN - s->foot + FOOT_GAP, notes = y + s->foot - FOOT_GAP;
+    tn_sheet_tables_paint(&s->tables, paint, MARGIN, y, s->deep, TN_LETTERING);
+    paint_block(s, paint, s->width - MARGIN - BLOCK_WIDTH, y);
+    notes -= NOTE_LEADING * (NOTE_LINES * (double)s->drawing->note_count - 1);
+    tn_paint_layer(paint, TN_LAYER_TEXT);
+    tn_paint_face(paint, TN_LETTERING, false);
+    for (size_t i = 0; i < s->drawing->note_count; i++)
+        notes += NOTE_LEADING * tn_type_paragraph(paint, MARGIN, notes, s->width - 2 * MARGIN, NOTE_LEADING, NOTE_LINES,
+                                                  s->drawing->notes[i]);
+}
+
 static void paint_all(const sheet *s, const tn_canvas *canvas)
 {
     tn_paint *paint = tn_canvas_paint(canvas);
     size_t section = 0;
     tn_paint_layer(paint, TN_LAYER_TITLE);
-    if (s->drawing->title) {
+    if (s->drawing->title && !is_sheet(s)) {
         tn_paint_face(paint, 13, true);
         tn_type_fit(paint, MARGIN, MARGIN + 6, TN_ALIGN_LEFT, s->width - 2 * MARGIN, s->drawing->title);
     }
     for (size_t i = 0; i < s->drawing->count && !tn_canvas_stopped(canvas); i++)
         paint_drawing(s, canvas, i, &section);
-    paint_foot(s, paint);
+    if (is_sheet(s))
+        paint_sheet_foot(s, paint);
+    else
+        paint_foot(s, paint);
 }
 
 tn_status tn_house_draw(const tn_house *house, const tn_solids *solids, const tn_house_drawing *drawing, tn_picture *to,
@@ -410,7 +499,7 @@ tn_status tn_house_draw(const tn_house *house, const tn_solids *solids, const tn
     s.style.us = !s.metric;
     letter_sections(&s);
     tn_canvas *canvas = NULL;
-    tn_status status = s.drawn ? TN_OK : tn_fail_memory(error);
+    tn_status status = s.drawn ? tn_sheet_tables_make(house, &s.style, &s.tables, error) : tn_fail_memory(error);
     for (size_t i = 0; status == TN_OK && i < drawing->count; i++) {
         s.drawn[i].outlines = to->format == TN_CANVAS_DXF;
         status = tn_house_view_take(solids, &drawing->aspects[i], house, &s.drawn[i], to->watch, error);

@@ -1,0 +1,59 @@
+#!/usr/bin/env python3
+"""Holds the drawings of a house to what offices ask: house_drawn.py SVG JSON (of a sheet in metres, both of one house).
+
+Lines are as wide as ISO 128 has them, capitals at least 2.5 mm high; each tag in a circle is in the table of doors and windows, with as many
+as the house has; each room's number is in the table of rooms, with the net area that the JSON has; furniture is drawn by symbols."""
+import json
+import re
+import sys
+from collections import Counter
+
+WIDTHS = {".51": "hatch", ".709": "thin", ".992": "seen", "1.417": "cut"}  # 0.18, 0.25, 0.35, 0.5 mm in points
+CAPITALS, MM = 0.729, 72 / 25.4
+failures = []
+
+
+def check(what, holds):
+    if not holds:
+        failures.append(what)
+
+
+def main():
+    svg, house = open(sys.argv[1], encoding="utf-8").read(), json.load(open(sys.argv[2], encoding="utf-8"))
+    black = re.findall(r'stroke="#000" stroke-width="([^"]*)"', svg)
+    check(f"widths {set(black) - set(WIDTHS)}", set(black) <= set(WIDTHS) and {".709", ".992", "1.417"} <= set(black))
+    texts = re.findall(r'<text ([^>]*)>([^<]*)', svg)
+    sizes = [float(re.search(r'font-size="([^"]*)"', at)[1]) for at, _ in texts]
+    check(f"capitals {min(sizes) * CAPITALS / MM:.2f} mm high", min(sizes) * CAPITALS / MM > 2.49)
+    said = [text for _, text in texts]
+
+    plain = {"wall", "party", "open", "floor", "stair"}
+    kinds = Counter(face["kind"] for face in house["faces"] if face["kind"] not in plain and face["rel"] != "above")
+    table = {said[i]: (said[i + 1], said[i + 2]) for i, text in enumerate(said[:-2]) if re.fullmatch(r"[DW]\d+", text) and re.match(r"\d+: ", said[i + 2])}
+    tags = Counter(text for text in said if re.fullmatch(r"[DW]\d+", text))
+    for tag, (kind, size) in table.items():
+        check(f"{tag} is {kind}: {size}, of {kinds}", int(size.split(":")[0]) == kinds[kind])
+        check(f"{tag} is drawn {tags[tag] - 1} times", tags[tag] - 1 == kinds[kind])
+    check(f"tags {set(tags) - set(table)} are in the table", set(tags) <= set(table) and len(table) == len(kinds))
+
+    net = Counter(f"{int(room['net']) / 1e18:.1f} m\u00b2" for room in house["rooms"])
+    rooms = {said[i]: said[i + 2] for i, text in enumerate(said[:-2]) if re.fullmatch(r"\d\.\d\d", text) and said[i + 2].endswith(" net")}
+    check(f"areas {rooms} are net {net}", Counter(area.removesuffix(" net") for area in rooms.values()) == net)
+    check("each room has its number", len(rooms) == len(house["rooms"]))
+    areas = {text for text in said if text.endswith("m\u00b2")}
+    check(f"areas in plans {areas - set(net)}", areas <= set(net))
+    check("each room is in a plan and in the table", all(said.count(number) == 2 for number in rooms))
+
+    things = [solid for solid in house["solids"] if solid["kind"] == "item"]
+    used = len(re.findall(r"<use ", svg))
+    wide = {tag: float(size.split()[1]) for tag, (_, size) in table.items()}
+    leaves = sum(kinds[kind] * (2 if wide[tag] > 1.22 else 1) for tag, (kind, _) in table.items() if tag[0] == "D")
+    check(f"{used} symbols for {len(things)} things and {leaves} leaves", used == len(things) + leaves)
+    for word in ("A-A", "B-B", "UP ", "areas are net", "\u00b10.00", "1:100"):
+        check(f"the sheet says {word}", any(word in text for text in said))
+    for failure in failures:
+        print(failure)
+    sys.exit(bool(failures))
+
+
+main()
