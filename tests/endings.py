@@ -183,7 +183,7 @@ def is_csv(data):
 
 
 def is_dxf(data):
-    lines = data.decode("ascii").splitlines()
+    lines = data.decode("utf-8").splitlines()
     assert all(code.strip().isdigit() for code in lines[::2]) and lines[-1] == "EOF"
 
 
