@@ -120,6 +120,16 @@ cp asked.plan walked.plan
 golden explained "tartan explain $scratch/walked.plan '$two ; - ; first | second ; wall' --library asked"
 "$TARTAN" explain walked.plan "$two ; - ; first | second ; door" --library asked --full -o why.svg
 is 'drawn, as a line' "$(grep -c 'stroke="#143399"' why.svg)" 1
+# Where the first room is: to the right of the second one, half of the partition and 50 mm from it, at half its depth.
+is 'drawn, as a line in its room' "$(python3 - why.svg <<'PY'
+import re, sys
+svg = open(sys.argv[1], encoding="utf-8").read()
+x, y, along = map(float, re.search(r'stroke="#143399".* d="M(\S+) (\S+)h(\S+)"', svg).groups())
+left, top, wide, deep = map(float, re.search(r'fill-opacity=".35" d="M(\S+) (\S+)h(\S+)v([^h]*)h', svg).groups())
+mm = along / 2850
+print(abs(left + wide + 100 * mm - x) < 0.01, abs(top + deep / 2 - y) < 0.01)
+PY
+)" 'True True'
 golden kept "tartan explain $scratch/walked.plan '$two ; - ; first | second ; door' --library asked --full"
 form 'require exits(cell(second)) >= 2, walk(cell(second), to outside) <= 2m' >walked.plan
 golden dropped "tartan explain $scratch/walked.plan '$two ; - ; first | second ; door' --library asked"
