@@ -142,4 +142,42 @@ test longest { value [3m space:4m | 4m space:4m ; - ; first | second ; door] = 2
 test ways { value [3m space:4m | 4m space:4m ; - ; first | second ; door] = 1 }
 PLAN
 golden tested "tartan test $scratch/walked.plan"
+golden measured "tartan house $scratch/walked.plan '3m space:4m | 4m space:4m ; - ; first | second ; door' --measures"
+golden measured_none "tartan house $scratch/walked.plan '3m space:4m | 4m space:4m ; - ; first | second ; wall' --measures -o -"
+golden measured_nowhere "tartan house $scratch/walked.plan '3m space:4m | 4m space:4m ; - ; first | second ; wall' --measures -o $scratch/x.json"
+
+# The JSON of each house says what the table of all says, and no more; costs among it are those of its bill, to the cent.
+cat >>furnished.plan <<'PLAN'
+measure longest = walk(cell(any), to outside)
+measure shortest = least walk(cell(any), to outside)
+measure ways = exits(cell(any))
+measure price = sum(cost)
+measure space = sum(area of cell(any))
+measure mixed = 2 * longest + sum(width)
+PLAN
+"$TARTAN" enumerate furnished.plan --library all --plan '4m space:5m | 4m space:5m' --columns -o houses.csv
+for k in 0 1 33 60 149; do "$TARTAN" house furnished.plan "#1:$k" --library all -o $k.json; done
+python3 - 0 1 33 60 149 <<'PY' || fail 'measures of a house'
+import csv, fractions, json, sys
+rows = list(csv.DictReader(open("houses.csv")))
+names = {"longest": "m", "shortest": "m", "ways": "", "price": "", "space": "m2", "mixed": "m"}
+seen = set()
+for k in sys.argv[1:]:
+    house, row = json.load(open(k + ".json")), rows[int(k)]
+    assert house["house"] == row["line"], (k, row["line"])
+    values = {m["measure"]: (m.get("value"), m["unit"]) for m in house["measures"]}
+    assert list(values) == list(names), values
+    for name, unit in names.items():
+        value, of = values[name]
+        shown = row[name + ("_" + unit if unit else "")]
+        assert of == unit and (value is None) == (shown == ""), (k, name, values, shown)
+        assert value is None or abs(fractions.Fraction(value) - fractions.Fraction(shown)) <= fractions.Fraction(1, 2000000), (k, name)
+        seen.add((name, value))
+    assert abs(fractions.Fraction(values["price"][0]) - fractions.Fraction(house["cost"])) < 1, (k, house["cost"])
+    area = sum((x1 - x0) * (y1 - y0) for x0, x1, y0, y1 in (c["rect"] for c in house["cells"]))
+    assert fractions.Fraction(values["space"][0]) == fractions.Fraction(area, 10**18), (k, area)
+    if values["longest"][0] is not None:
+        assert fractions.Fraction(values["mixed"][0]) == 2 * fractions.Fraction(values["longest"][0]) + 8, k
+assert len({v for n, v in seen if n == "longest"}) == 2 and len({v for n, v in seen if n == "price"}) > 2, seen
+PY
 finish
