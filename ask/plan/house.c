@@ -351,7 +351,7 @@ static tn_status set_values(const tn_house *house, tn_built_house *built, tn_err
 {
     tn_house_valuer *valuer;
     size_t count = 0;
-    tn_status status = tn_house_valuer_new(house->form, house->length, &valuer, error);
+    tn_status status = tn_house_valuer_new(house->form, house->length, NULL, 0, &valuer, error);
     if (status == TN_OK)
         status = tn_house_values_find(valuer, house, NULL, error);
     const tn_house_value *values = status == TN_OK ? tn_house_values(valuer, &count) : NULL;

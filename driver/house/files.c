@@ -64,7 +64,7 @@ static const char *title_of(const tn_house_filed *filed)
 static tn_status describe(const tn_house_filed *filed, tn_buffer *text, tn_error *error)
 {
     tn_house_valuer *valuer;
-    tn_status status = tn_house_valuer_new(filed->house->form, filed->house->length, &valuer, error);
+    tn_status status = tn_house_valuer_new(filed->house->form, filed->house->length, NULL, 0, &valuer, error);
     if (status == TN_OK)
         status = tn_house_values_find(valuer, filed->house, NULL, error);
     if (status == TN_OK) {

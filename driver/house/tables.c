@@ -199,7 +199,7 @@ tn_status tn_house_tables_new(const tn_house_form *form, size_t max_length, tn_h
         return tn_fail_memory(error);
     t->form = form;
     t->feet = tn_amount_unit_of(form->schema, 1).feet;
-    tn_status status = tn_house_valuer_new(form, max_length, &t->valuer, error);
+    tn_status status = tn_house_valuer_new(form, max_length, NULL, 0, &t->valuer, error);
     if (status == TN_OK)
         status = make_houses(t, error);
     if (status == TN_OK)

@@ -3,7 +3,6 @@
 
 #include <stdlib.h>
 
-#include "runtime/house/rule/asked.h"
 #include "runtime/house/schedule/cost.h"
 #include "runtime/plan/measure/named.h"
 
@@ -11,8 +10,9 @@ struct tn_house_valuer {
     const tn_house_form *form;
     tn_house_rules *rules;
     tn_house_value *values;
-    uint32_t *measures; /* [count] as tn_house_measured_of counts them */
+    tn_house_measured *measures; /* [count] */
     size_t count;
+    bool priced; /* one asks what the house costs */
 };
 
 static bool has_measure(const tn_house_form *form, uint32_t measure)
@@ -25,32 +25,43 @@ static bool has_measure(const tn_house_form *form, uint32_t measure)
            !tn_named_measure_partial(module, of_plans);
 }
 
-static void add_measure(tn_house_valuer *v, uint32_t measure)
+static void add_measure(tn_house_valuer *v, tn_house_measured of)
 {
     const tn_module *module = v->form->module;
-    tn_house_measured of = tn_house_measured_of(module, measure);
     tn_house_value *value = &v->values[v->count];
-    v->measures[v->count++] = measure;
+    v->measures[v->count++] = of;
     value->measure = tn_text(module, of.name);
     value->unit = tn_amount_unit_of(v->form->schema, (int)module->SUM_records[of.sum].power);
     mpq_init(value->value);
+    for (uint32_t i = 0; i < of.term_count; i++)
+        v->priced = v->priced || module->HOUSE_TERM_records[of.term_first + i].kind == TN_HOUSE_COST;
 }
 
-tn_status tn_house_valuer_new(const tn_house_form *form, size_t max_length, tn_house_valuer **valuer, tn_error *error)
+static void add_all(tn_house_valuer *v)
+{
+    const tn_module *module = v->form->module;
+    for (uint32_t i = 0; i < module->HOUSE_MEASURE_count + module->MEASURE_count; i++)
+        if (has_measure(v->form, i))
+            add_measure(v, tn_house_measured_of(module, i));
+}
+
+tn_status tn_house_valuer_new(const tn_house_form *form, size_t max_length, const tn_house_measured *measures,
+                              size_t count, tn_house_valuer **valuer, tn_error *error)
 {
     tn_house_valuer *v = calloc(1, sizeof *v);
-    size_t all = form->module->HOUSE_MEASURE_count + form->module->MEASURE_count;
+    size_t room = measures ? count : form->module->HOUSE_MEASURE_count + form->module->MEASURE_count;
     *valuer = v;
     if (!v)
         return tn_fail_memory(error);
     v->form = form;
-    v->values = calloc(all + 1, sizeof *v->values);
-    v->measures = malloc((all + 1) * sizeof *v->measures);
+    v->values = calloc(room + 1, sizeof *v->values);
+    v->measures = malloc((room + 1) * sizeof *v->measures);
     if (!v->values || !v->measures)
         return tn_fail_memory(error);
-    for (uint32_t i = 0; i < all; i++)
-        if (has_measure(form, i))
-            add_measure(v, i);
+    for (size_t i = 0; measures && i < count; i++)
+        add_measure(v, measures[i]);
+    if (!measures)
+        add_all(v);
     return tn_house_rules_new(form, max_length, &v->rules, error);
 }
 
@@ -78,8 +89,7 @@ static tn_status find_value(tn_house_valuer *v, size_t i, const mpq_t price, tn_
     tn_worth worth = TN_NO_WORTH;
     mpq_t cost;
     mpq_init(cost);
-    tn_status status = tn_house_rules_measure(v->rules, tn_house_measured_of(v->form->module, v->measures[i]),
-                                              to->value, cost, &worth, error);
+    tn_status status = tn_house_rules_measure(v->rules, v->measures[i], to->value, cost, &worth, error);
     to->has = status == TN_OK && worth == TN_HAS_WORTH;
     if (to->has) {
         mpq_mul(cost, cost, price);
@@ -98,7 +108,7 @@ tn_status tn_house_values_find(tn_house_valuer *v, const tn_house *house, mpq_sr
     tn_status status = TN_OK;
     if (price)
         mpq_set(paid, price);
-    else if (tn_form_has_costs(house->form))
+    else if (v->priced)
         status = tn_house_exact_cost(house, tn_house_solids, paid, error);
     if (status == TN_OK)
         status = tn_house_rules_start(v->rules, house, error);
