@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""Holds the drawings of a house to what offices ask: house_drawn.py SVG JSON (of a sheet in metres, both of one house).
+"""Holds the drawings of a house to what offices ask: house_drawn.py SVG JSON (of a sheet in metres, both of one house),
+or house_drawn.py SVG (of any sheet), of which it looks only at whether what is written is legible.
 
 Lines are as wide as ISO 128 has them, capitals at least 2.5 mm high; each tag in a circle is in the table of doors and windows, with as many
-as the house has; each room's number is in the table of rooms, with the net area that the JSON has; furniture is drawn by symbols."""
+as the house has; each room's number is in the table of rooms, with the net area that the JSON has; furniture is drawn by symbols; nothing is written over something else that is written."""
+import html
 import json
 import re
 import sys
@@ -18,8 +20,36 @@ def check(what, holds):
         failures.append(what)
 
 
+def place(at, text):
+    """Where a text surely is, as left, top, right, bottom: letters are half as wide as high, at least on the mean."""
+    of = {name: value for name, value in re.findall(r'([a-z-]+)="([^"]*)"', at)}
+    x, y, size = float(of["x"]), float(of["y"]), float(of["font-size"])
+    wide = 0.5 * len(html.unescape(text)) * size
+    before = {"start": 0, "middle": wide / 2, "end": wide}[of.get("text-anchor", "start")]
+    if of.get("transform", "").startswith("rotate(-90 "):
+        return x - 0.7 * size, y + before - wide, x, y + before
+    return x - before, y - 0.7 * size, x - before + wide, y
+
+
+def check_apart(texts):
+    places = [place(at, text) for at, text in texts]
+    for i, a in enumerate(places):
+        for k, b in enumerate(places[:i]):
+            check(f"{texts[i][1]} is written over {texts[k][1]}", a[0] >= b[2] or b[0] >= a[2] or a[1] >= b[3] or b[1] >= a[3])
+
+
+def finish():
+    for failure in failures:
+        print(failure)
+    sys.exit(bool(failures))
+
+
 def main():
-    svg, house = open(sys.argv[1], encoding="utf-8").read(), json.load(open(sys.argv[2], encoding="utf-8"))
+    svg = open(sys.argv[1], encoding="utf-8").read()
+    check_apart(re.findall(r"<text ([^>]*)>([^<]*)", svg))
+    if len(sys.argv) < 3:
+        finish()
+    house = json.load(open(sys.argv[2], encoding="utf-8"))
     black = re.findall(r'stroke="#000" stroke-width="([^"]*)"', svg)
     check(f"widths {set(black) - set(WIDTHS)}", set(black) <= set(WIDTHS) and {".709", ".992", "1.417"} <= set(black))
     texts = re.findall(r'<text ([^>]*)>([^<]*)', svg)
@@ -51,9 +81,7 @@ def main():
     check(f"{used} symbols for {len(things)} things and {leaves} leaves", used == len(things) + leaves)
     for word in ("A-A", "B-B", "UP ", "areas are net", "\u00b10.00", "1:100"):
         check(f"the sheet says {word}", any(word in text for text in said))
-    for failure in failures:
-        print(failure)
-    sys.exit(bool(failures))
+    finish()
 
 
 main()

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "ask/house/numbered_count.h"
+#include "ask/house/walked.h"
 #include "runtime/base/integers.h"
 
 /* What was counted. */
@@ -522,11 +523,33 @@ tn_status tn_numbered_count(tn_numbered *n, const tn_plan *plan, bool clauses, t
 
 /* ---- by a measure */
 
-static tn_status fill_spread(const tn_numbered *n, const tn_plan *plan, tn_house_measured measure, tn_spread *spread,
+static tn_status spread_walked(tn_numbered *n, const tn_plan *plan, const tn_house_measures *measures,
+                               tn_spread *spread, tn_error *error)
+{
+    tn_walked_houses walked;
+    tn_session_begins(n->session, "measuring houses");
+    tn_status status = tn_walked_find(n, plan, measures, false, &walked, error);
+    tn_session_ends(n->session);
+    if (status == TN_OK)
+        status = tn_walked_spread(&walked, &spread->d, error);
+    tn_walked_clear(&walked);
+    return status;
+}
+
+static tn_status spread_together(tn_numbered *n, const tn_houses_what *what, tn_spread *spread, tn_error *error)
+{
+    tn_houses *houses = NULL;
+    tn_status status = tn_houses_of(&n->form, n->record, n->plans, what, n->max_states, &houses, error);
+    if (status == TN_OK)
+        status = tn_houses_spread(houses, &spread->d, error);
+    tn_houses_free(houses);
+    return status;
+}
+
+static tn_status fill_spread(tn_numbered *n, const tn_plan *plan, tn_house_measured measure, tn_spread *spread,
                              tn_error *error)
 {
     tn_house_weights *weights = NULL;
-    tn_houses *houses = NULL;
     tn_status status = tn_house_weights_new(&n->form, measure, &weights, error);
     tn_house_measures measures = {.count = 1, .of = {weights}};
     tn_houses_what what = {.measures = &measures};
@@ -535,12 +558,10 @@ static tn_status fill_spread(const tn_numbered *n, const tn_plan *plan, tn_house
         what.length = (uint32_t)plan->length;
     }
     if (status == TN_OK)
-        status = tn_houses_of(&n->form, n->record, n->plans, &what, n->max_states, &houses, error);
-    if (status == TN_OK)
-        status = tn_houses_spread(houses, &spread->d, error);
+        status = plan && tn_walked_asked(n, &measures) ? spread_walked(n, plan, &measures, spread, error)
+                                                       : spread_together(n, &what, spread, error);
     if (status == TN_OK)
         status = tn_spread_finish(spread, error);
-    tn_houses_free(houses);
     tn_house_weights_free(weights);
     return status;
 }

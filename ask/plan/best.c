@@ -412,6 +412,19 @@ static tn_status find_values(tn_houses_search *s, tn_houses_aim aim, uint64_t wa
     return status;
 }
 
+/* By walks: those on one plan are gone through. */
+static tn_status find_walked(tn_houses_search *s, tn_houses_aim aim, tn_error *error)
+{
+    tn_session *session = s->n.session;
+    tn_session_begins(session, "looking for the best");
+    tn_status status = tn_walked_find(&s->n, &s->plan, &s->measures, aim == TN_HOUSES_FRONT, &s->walked, error);
+    tn_session_ends(session);
+    if (status == TN_OK && s->walked.without > 0)
+        tn_session_note(session, "%" PRIu64 " house%s without a value %s left out", s->walked.without,
+                        s->walked.without > 1 ? "s" : "", s->walked.without > 1 ? "are" : "is");
+    return status;
+}
+
 tn_status tn_houses_search_begin(tn_houses_search *s, tn_session *session, const tn_house_asked *asked)
 {
     tn_error error;
@@ -426,13 +439,16 @@ tn_status tn_houses_search_begin(tn_houses_search *s, tn_session *session, const
         status = find_measures(s);
     if (status != TN_OK)
         return status;
-    status = find_values(s, asked->aim, asked->wanted, &s->houses, &error);
+    status = s->plan.trays && tn_walked_asked(&s->n, &s->measures)
+                 ? find_walked(s, asked->aim, &error)
+                 : find_values(s, asked->aim, asked->wanted, &s->houses, &error);
     return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
 }
 
 void tn_houses_search_end(tn_houses_search *s)
 {
     tn_houses_free(s->houses);
+    tn_walked_clear(&s->walked);
     tn_lines_taken_clear(&s->taken);
     for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
         tn_house_weights_free(s->weights[k]);
@@ -453,8 +469,27 @@ static tn_status houses_search_give(tn_session *session, const tn_house_asked *a
     return status;
 }
 
+size_t tn_houses_search_points(const tn_houses_search *s)
+{
+    return s->houses ? tn_houses_points(s->houses) : s->walked.point_count;
+}
+
+/* Comes to a point. */
+static void search_point(tn_houses_search *s, size_t point)
+{
+    s->point = point;
+    if (s->houses)
+        tn_houses_point(s->houses, point, s->values, s->count);
+    else
+        mpz_set_ui(s->count, (unsigned long)(s->walked.points[point + 1] - s->walked.points[point]));
+}
+
 void tn_houses_search_value(const tn_houses_search *s, uint32_t k, mpq_t value)
 {
+    if (!s->houses) {
+        mpq_set(value, s->walked.items[s->walked.points[s->point]].values[k]);
+        return;
+    }
     mpq_set_si(value, s->values[k], 1);
     mpq_mul(value, value, s->weights[k]->shown);
 }
@@ -485,16 +520,17 @@ static tn_status judge_house(void *context, const tn_house *house, bool *stop, t
 static tn_status houses_search_of_point(tn_houses_search *s, size_t point, tn_house_alike alike, tn_house_each *each,
                                         void *context, tn_error *error)
 {
-    tn_houses_point(s->houses, point, s->values, s->count);
+    search_point(s, point);
     judged j = {.search = s, .alike = alike, .each = each, .context = context};
-    return tn_houses_point_each(s->houses, point, alike, judge_house, &j, error);
+    return s->houses ? tn_houses_point_each(s->houses, point, alike, judge_house, &j, error)
+                     : tn_walked_each(&s->walked, point, judge_house, &j, error);
 }
 
 static tn_status each_of_points(tn_houses_search *s, tn_house_alike alike, tn_house_each *each, void *context,
                                 tn_error *error)
 {
     tn_status status = TN_OK;
-    for (size_t i = 0; status == TN_OK && s->given < s->wanted && i < tn_houses_points(s->houses); i++)
+    for (size_t i = 0; status == TN_OK && s->given < s->wanted && i < tn_houses_search_points(s); i++)
         status = houses_search_of_point(s, i, alike, each, context, error);
     return status;
 }
@@ -506,8 +542,8 @@ static bool may_have_more(tn_houses_search *s)
 {
     mpz_t known, plans;
     mpz_inits(known, plans, NULL);
-    for (size_t i = 0; i < tn_houses_points(s->houses); i++) {
-        tn_houses_point(s->houses, i, s->values, s->count);
+    for (size_t i = 0; i < tn_houses_search_points(s); i++) {
+        search_point(s, i);
         mpz_add(known, known, s->count);
     }
     tn_library_kept(s->n.plans, TN_ALL_LENGTHS, plans);
@@ -592,7 +628,7 @@ static tn_status give(tn_houses_search *search, tn_reply *answer)
     if (status == TN_OK && !finds.ended)
         status = tn_houses_search_each(search, give_house, &g, &error);
     wishes_clear(g.values);
-    if (status == TN_OK && !finds.ended)
+    if (status == TN_OK && !finds.ended && search->walked.without == 0)
         tn_numbered_say_few(&search->n, search->plan.trays != NULL, search->given, search->wanted);
     return tn_finds_end(&finds, status, &error);
 }
@@ -734,7 +770,7 @@ static tn_status set_house(tn_houses_search *search, size_t i, tn_front_point *p
 static tn_status give_houses(tn_houses_search *search, tn_reply *answer)
 {
     tn_error error;
-    size_t count = tn_houses_points(search->houses);
+    size_t count = tn_houses_search_points(search);
     tn_status status = tn_reply_new(&tn_message_found_front, answer, &error);
     tn_found_front *front = answer->value;
     if (status == TN_OK)

@@ -4,6 +4,7 @@
 
 #include "ask/house/diverse.h"
 #include "ask/house/numbered.h"
+#include "ask/house/walked.h"
 #include "ask/plan/found.h"
 #include "ask/session/spelled.h"
 #include "runtime/base/picture.h"
@@ -56,8 +57,10 @@ typedef struct tn_houses_search {
     tn_plan plan;    /* if one is given */
     tn_house_weights *weights[TN_WEIGHED_MAX];
     tn_house_measures measures;
-    tn_houses *houses;
-    int64_t values[TN_WEIGHED_MAX]; /* of the point at hand */
+    tn_houses *houses;              /* or NULL: */
+    tn_walked_houses walked;        /* they were gone through */
+    size_t point;                   /* the one at hand, */
+    int64_t values[TN_WEIGHED_MAX]; /* of `houses` its values */
     mpz_t count;                    /* houses there */
     uint64_t given, wanted;         /* houses so far, and in all */
     bool diverse;                   /* they differ as people see it */
@@ -80,6 +83,9 @@ typedef struct tn_house_asked {
 /* Opens the library and finds the values. What is wrong is said. End it in any case. */
 tn_status tn_houses_search_begin(tn_houses_search *search, tn_session *session, const tn_house_asked *asked);
 void tn_houses_search_end(tn_houses_search *search);
+
+/* How many values there are. */
+size_t tn_houses_search_points(const tn_houses_search *search);
 
 /* The value of measure k at the point at hand, in nanometres to its power. */
 void tn_houses_search_value(const tn_houses_search *search, uint32_t k, mpq_t value);

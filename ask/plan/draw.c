@@ -650,7 +650,7 @@ static tn_status find_wanted(page *p, const tn_houses_search *search)
 {
     if (!p->c.front)
         return TN_OK;
-    p->wanted = tn_houses_points(search->houses);
+    p->wanted = tn_houses_search_points(search);
     return p->wanted <= TN_HOUSES_DRAWN_MAX
                ? TN_OK
                : tn_session_refuse(p->session, "leave out -o, or name a text file: it has a house of each",

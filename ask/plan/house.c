@@ -9,6 +9,7 @@
 #include "compiler/plan/syntax/program.h"
 #include "driver/house/change_text.h"
 #include "driver/house/files.h"
+#include "driver/house/values.h"
 #include "runtime/base/integers.h"
 #include "runtime/base/nearest.h"
 #include "runtime/house/schedule/cost.h"
@@ -328,6 +329,38 @@ static tn_status set_line(const tn_house *house, tn_built_house *built, tn_error
     return status == TN_OK && line.failed ? tn_fail_memory(error) : status;
 }
 
+static tn_status add_value(const tn_house_value *value, tn_built_house *built, tn_error *error)
+{
+    tn_buffer shown = {0};
+    tn_valued_measure *to = TN_ADD(valued_measure, built->measures, error);
+    if (!to)
+        return TN_MEMORY;
+    to->measure = value->measure;
+    to->unit = tn_amount_unit_name(value->unit);
+    to->has_value = value->has;
+    if (!value->has)
+        return TN_OK;
+    mpq_set(to->value, value->value);
+    tn_amount_convert(value->unit, to->value);
+    bool good = tn_amount_write(value->unit, value->value, &shown);
+    to->shown = shown.data;
+    return good ? TN_OK : tn_fail_memory(error);
+}
+
+static tn_status set_values(const tn_house *house, tn_built_house *built, tn_error *error)
+{
+    tn_house_valuer *valuer;
+    size_t count = 0;
+    tn_status status = tn_house_valuer_new(house->form, house->length, NULL, 0, &valuer, error);
+    if (status == TN_OK)
+        status = tn_house_values_find(valuer, house, NULL, error);
+    const tn_house_value *values = status == TN_OK ? tn_house_values(valuer, &count) : NULL;
+    for (size_t i = 0; status == TN_OK && i < count; i++)
+        status = add_value(&values[i], built, error);
+    tn_house_valuer_free(valuer);
+    return status;
+}
+
 enum { HANGING_SHOWN = 8 }; /* walls of a storey that are named */
 
 /* Warns of walls of a storey that stand over nothing thicker than a partition, at the line of the storey. */
@@ -383,6 +416,8 @@ static tn_status write_all(void *context, const tn_house *house, tn_error *error
     building *b = context;
     tn_solids solids = {0};
     tn_status status = set_line(house, b->built, error);
+    if (status == TN_OK && b->request->measures)
+        status = set_values(house, b->built, error);
     if (status == TN_OK && b->request->files.count)
         status = tn_house_solids(house, &solids, error);
     b->filed = filed_of(b);

@@ -15,6 +15,7 @@ typedef struct house_settings {
     int furnish; /* 1: no */
     tn_option_number scale, dpi, max_length, max_states;
     int profile;
+    bool measures;
     tn_option_real azimuth, elevation;
 } house_settings;
 
@@ -113,13 +114,27 @@ static void clear_files(house_files *files)
     free(files->words);
 }
 
+static bool measures_go_with_line(tn_job *job, const house_files *files)
+{
+    if (!settings_of(job)->measures || files->line)
+        return true;
+    tn_diagnostic *d = tn_job_usage(job, "--measures is about the house's line, which is not written");
+    tn_help(tn_job_diagnostics(job), d, "add `-o -` to write it to standard output; .json has the measures in any case");
+    return false;
+}
+
 /* ---- the command */
 
+/* With measures above it, as comments. */
 static void write_line(tn_job *job, const tn_built_house *built)
 {
     tn_output output;
     if (!tn_job_output(job, NULL, &output))
         return;
+    for (size_t i = 0; i < built->measures.count; i++) {
+        const tn_valued_measure *value = &built->measures.items[i];
+        fprintf(output.stream, "# %s: %s\n", value->measure, value->has_value ? value->shown : "no value");
+    }
     fprintf(output.stream, "%s\n", built->house);
     tn_job_commit(job, &output);
 }
@@ -147,7 +162,8 @@ static void ask(tn_job *job, const house_files *files)
                                       .title = s->title,
                                       .has_dpi = s->dpi.given,
                                       .dpi = s->dpi.value,
-                                      .profile = (unsigned)s->profile};
+                                      .profile = (unsigned)s->profile,
+                                      .measures = s->measures};
     tn_made_outputs outputs;
     tn_reply answer;
     tn_job_files(job, &outputs, (const char *const *)files->paths, files->count, false);
@@ -164,7 +180,8 @@ static int run(const tn_command *command, const tn_settings *settings)
     tn_job job;
     house_files files = {0};
     tn_job_begin(&job, settings);
-    if (names_known(&job) && list_files(&job, &files) && tn_job_open(&job, settings->operands.items[0]))
+    if (names_known(&job) && list_files(&job, &files) && measures_go_with_line(&job, &files) &&
+        tn_job_open(&job, settings->operands.items[0]))
         ask(&job, &files);
     clear_files(&files);
     return tn_job_end(&job);
@@ -199,6 +216,8 @@ static const tn_option options[] = {
     TEXT("library", 0, "NAME", library,
          "the library of houses that the number belongs to, or that a line with values left out is of; may be left out "
          "where the file has one"),
+    FLAG("measures", 0, measures,
+         "write what the file's measures are worth on the house above its line, each as a comment"),
     OPTION_SET,
     NUMBER("max-length", 0, "N", max_length, 1, 1u << 24, "the longest plan that is accepted, in trays (default 4096)"),
     NUMBER("max-states", 0, "N", max_states, 1, UINT32_MAX, "the most states of an automaton of the library of plans"),
@@ -217,8 +236,9 @@ const tn_command tn_command_house = {
         "nothing at "
         "the end): it is then the first house of the library, or of the form, that has what is typed. "
         "#P:V is variant V of the "
-        "plan of rank P in a library of houses, and #R the house of rank R. Without -o the house's line is written. "
-        "JSON has everything, in whole nanometres; CSV has the rooms with their areas; OBJ, PLY and GLB have the "
+        "plan of rank P in a library of houses, and #R the house of rank R. Without -o the house's line is written, "
+        "with --measures below what the file's measures are worth on it. "
+        "JSON has everything, in whole nanometres, and the measures in feet or metres; CSV has the rooms with their areas; OBJ, PLY and GLB have the "
         "house as one closed mesh in metres, in groups by what its parts are. IFC has it as a building model, in "
         "millimetres. SVG, PDF, PNG and DXF are drawings to scale: "
         "a sheet of all, or those that --view names.",

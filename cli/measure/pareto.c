@@ -112,7 +112,7 @@ const tn_command tn_command_pareto = {
         "With -o and the name of a picture (.svg, .png or .pdf) the front is drawn over the distribution of the "
         "measures: "
         "exact along the edges, of a sample inside. Of three measures, each two have a panel.\n\n"
-        "With --library HOUSES, or --plan, it is the front of the houses, by measures of houses or of plans "
+        "With --library HOUSES, or --plan, it is the front of the houses, by measures of houses (of walks with --plan) or of plans "
         "(docs/houses.md). A picture then shows the first house of each value, with its name #P:V.",
     .example = "$ tartan pareto lahave-houses --least cost --most area",
     .options = options,

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "driver/house/values.h"
 #include "runtime/geometry/write.h"
 #include "runtime/house/export/export.h"
 #include "runtime/house/picture/draw.h"
@@ -59,11 +60,27 @@ static const char *title_of(const tn_house_filed *filed)
     return doc[0] ? doc : tn_text(form->module, form->record->name);
 }
 
+/* With what the file's measures are worth. */
+static tn_status describe(const tn_house_filed *filed, tn_buffer *text, tn_error *error)
+{
+    tn_house_valuer *valuer;
+    tn_status status = tn_house_valuer_new(filed->house->form, filed->house->length, NULL, 0, &valuer, error);
+    if (status == TN_OK)
+        status = tn_house_values_find(valuer, filed->house, NULL, error);
+    if (status == TN_OK) {
+        size_t count;
+        const tn_house_value *values = tn_house_values(valuer, &count);
+        status = tn_house_describe(filed->house, filed->solids, values, count, text, error);
+    }
+    tn_house_valuer_free(valuer);
+    return status;
+}
+
 static tn_status write_text(const tn_house_filed *filed, tn_house_file kind, FILE *out, tn_error *error)
 {
     const tn_house *house = filed->house;
     tn_buffer text = {0};
-    tn_status status = kind == TN_HOUSE_AS_JSON    ? tn_house_describe(house, filed->solids, &text, error)
+    tn_status status = kind == TN_HOUSE_AS_JSON    ? describe(filed, &text, error)
                        : kind == TN_HOUSE_AS_CSV   ? tn_house_schedule(house, &text, error)
                        : kind == TN_HOUSE_AS_PARTS ? tn_house_parts(house, filed->solids, &text, error)
                                                    : tn_house_write(house, &text, error);

@@ -7,13 +7,12 @@
 #include <string.h>
 #include <strings.h>
 
+#include "driver/house/values.h"
 #include "runtime/base/array.h"
 #include "runtime/base/integers.h"
 #include "runtime/house/house.h"
-#include "runtime/house/rule/asked.h"
 #include "runtime/house/schedule/cost.h"
 #include "runtime/plan/measure/amount.h"
-#include "runtime/plan/measure/named.h"
 #include "runtime/plan/text/text.h"
 
 typedef struct columns {
@@ -23,11 +22,9 @@ typedef struct columns {
 
 struct tn_house_tables {
     const tn_house_form *form;
-    tn_house_rules *rules;
+    tn_house_valuer *valuer;
     bool feet;
     columns of[TN_HOUSE_TABLES];
-    uint32_t *measures; /* as tn_house_measured_of counts them */
-    size_t measure_count;
     tn_buffer cells; /* of the row under way, each with a zero byte */
     size_t *starts;  /* [columns of the widest table]: SIZE_MAX of a cell without a value */
     const char **texts;
@@ -114,9 +111,9 @@ static tn_status add_functions(tn_house_tables *t, columns *houses, tn_error *er
 }
 
 /* "m2", "ft", "per_m2"; of squares and cubes of feet "sf" and "cf", as in all tables of houses. */
-static void measure_unit(const tn_house_tables *t, int power, char text[16])
+static void measure_unit(tn_amount_unit of, char text[16])
 {
-    const char *unit = tn_amount_unit_name(tn_amount_unit_of(t->form->schema, power));
+    const char *unit = tn_amount_unit_name(of);
     bool per = *unit == '/';
     unit += per;
     snprintf(text, 16, "%s%s", per ? "per_" : "",
@@ -125,30 +122,15 @@ static void measure_unit(const tn_house_tables *t, int power, char text[16])
                                         : unit);
 }
 
-static bool has_measure(const tn_house_tables *t, uint32_t measure)
-{
-    const tn_module *module = t->form->module;
-    uint32_t of_plans = measure - (uint32_t)module->HOUSE_MEASURE_count;
-    if (measure < module->HOUSE_MEASURE_count)
-        return &module->FORM_records[module->HOUSE_MEASURE_records[measure].form] == t->form->record;
-    return module->MEASURE_records[of_plans].schema == t->form->record->schema &&
-           !tn_named_measure_partial(module, of_plans);
-}
-
 static tn_status add_measures(tn_house_tables *t, columns *houses, tn_error *error)
 {
-    const tn_module *module = t->form->module;
-    uint32_t all = (uint32_t)(module->HOUSE_MEASURE_count + module->MEASURE_count);
-    t->measures = malloc(((size_t)all + 1) * sizeof *t->measures);
-    tn_status status = t->measures ? TN_OK : tn_fail_memory(error);
-    for (uint32_t i = 0; status == TN_OK && i < all; i++) {
+    size_t count;
+    const tn_house_value *values = tn_house_values(t->valuer, &count);
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < count; i++) {
         char unit[16];
-        if (!has_measure(t, i))
-            continue;
-        tn_house_measured of = tn_house_measured_of(module, i);
-        measure_unit(t, (int)module->SUM_records[of.sum].power, unit);
-        t->measures[t->measure_count++] = i;
-        status = add_column(houses, TN_COLUMN_REAL, tn_text(module, of.name), unit, error);
+        measure_unit(values[i].unit, unit);
+        status = add_column(houses, TN_COLUMN_REAL, values[i].measure, unit, error);
     }
     return status;
 }
@@ -217,7 +199,7 @@ tn_status tn_house_tables_new(const tn_house_form *form, size_t max_length, tn_h
         return tn_fail_memory(error);
     t->form = form;
     t->feet = tn_amount_unit_of(form->schema, 1).feet;
-    tn_status status = tn_house_rules_new(form, max_length, &t->rules, error);
+    tn_status status = tn_house_valuer_new(form, max_length, NULL, 0, &t->valuer, error);
     if (status == TN_OK)
         status = make_houses(t, error);
     if (status == TN_OK)
@@ -240,8 +222,7 @@ void tn_house_tables_free(tn_house_tables *t)
             free((char *)(uintptr_t)t->of[i].items[k].name);
         free(t->of[i].items);
     }
-    tn_house_rules_free(t->rules);
-    free(t->measures);
+    tn_house_valuer_free(t->valuer);
     free(t->cells.data);
     free(t->starts);
     free(t->texts);
@@ -493,27 +474,21 @@ static void put_functions(const adding *a)
 
 static tn_status put_measures(const adding *a, const mpq_t price, tn_error *error)
 {
-    tn_house_tables *t = a->t;
-    const tn_module *module = t->form->module;
-    tn_worth worth = TN_HAS_WORTH;
-    mpq_t value, cost;
-    mpq_inits(value, cost, NULL);
-    tn_status status = tn_house_rules_start(t->rules, a->house, error);
-    if (status == TN_OK)
-        tn_house_rules_price(t->rules, price);
-    for (size_t i = 0; status == TN_OK && i < t->measure_count; i++) {
-        tn_house_measured of = tn_house_measured_of(module, t->measures[i]);
-        status = tn_house_rules_measure(t->rules, of, value, cost, &worth, error);
-        if (status == TN_OK && worth != TN_HAS_WORTH)
-            put_nothing(t);
-        if (status != TN_OK || worth != TN_HAS_WORTH)
+    size_t count;
+    const tn_house_value *values = tn_house_values(a->t->valuer, &count);
+    tn_status status = tn_house_values_find(a->t->valuer, a->house, price, error);
+    mpq_t shown;
+    mpq_init(shown);
+    for (size_t i = 0; status == TN_OK && i < count; i++) {
+        if (!values[i].has) {
+            put_nothing(a->t);
             continue;
-        mpq_mul(cost, cost, price);
-        mpq_add(value, value, cost);
-        tn_amount_convert(tn_amount_unit_of(t->form->schema, (int)module->SUM_records[of.sum].power), value);
-        put_real(t, value);
+        }
+        mpq_set(shown, values[i].value);
+        tn_amount_convert(values[i].unit, shown);
+        put_real(a->t, shown);
     }
-    mpq_clears(value, cost, NULL);
+    mpq_clear(shown);
     return status;
 }
 

@@ -7,5 +7,19 @@ tests=$(cd "$here/.." && pwd)
 for house in '#2:18693' '#2:5' '#2:9001'; do
     "$TARTAN" house row-houses "$house" -o "$scratch/house.svg" -o "$scratch/house.json" 2>"$scratch/said" || fail "no house $house: $(cat "$scratch/said")"
     is "house $house" "$(python3 -B "$tests/house_drawn.py" "$scratch/house.svg" "$scratch/house.json" && echo fine)" fine
+    cp "$scratch/house.svg" "$scratch/one.svg"
 done
+# Small scales leave less room: marks of sections, too, stand apart from dimensions.
+house="14' none room:14' porch:5' | 10' none room:14' porch:5' | 10' lean-to:7' room:14' none ; 1 2 shed(back,4:12) 1 ; living bedroom porch-deck | stair stair porch-deck | bath kitchen bedroom"
+"$TARTAN" house cottage "$house" --scale 192 -o "$scratch/house.svg" 2>"$scratch/said" || fail "no cottage: $(cat "$scratch/said")"
+is 'a cottage at 1/16"' "$(python3 -B "$tests/house_drawn.py" "$scratch/house.svg" && echo fine)" fine
+is 'its name is whole' "$(grep -c '>one or two storeys under a gable or a shed<' "$scratch/house.svg")" 1
+is 'heights to 1/8"' "$(grep -c '[0-9]/\(16\|32\|64\)"<' "$scratch/house.svg")" 0
+# Three row houses on three storeys are legible on A1, if views in space are smaller; one has room for large ones.
+is 'views of one row house' "$(grep -c '>axonometric<' "$scratch/one.svg")" 1
+house='2.2m first three room:5m room:4m room:3m | 4m - three room:5m room:4m none | 4m first three room:5m room:4m none | 2.2m - three room:5m room:4m room:3m | 4m first three room:5m room:4m none | 2.2m - three room:5m room:4m room:3m ; 2 flat flat shed(front,1:4) brick'
+"$TARTAN" house row-houses "$house" -o "$scratch/house.svg" 2>"$scratch/said" || fail "no row: $(cat "$scratch/said")"
+is 'three row houses' "$(grep -o '>1:[0-9]*<' "$scratch/house.svg")" '>1:100<'
+is 'their views' "$(grep -c '>axonometric, 1:200<' "$scratch/house.svg")" 1
+is 'their sheet' "$(python3 -B "$tests/house_drawn.py" "$scratch/house.svg" && echo fine)" fine
 finish

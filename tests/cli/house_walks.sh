@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Walks and ways out: a nanometre decides; cells without a walk meet no bound, and where there are no such cells all do that have a `most`;
-# what is said of single houses; houses on one plan are counted, listed, ranked and varied by them, those on all plans are not.
+# what is said of single houses; houses on one plan are counted, listed, ranked, varied, put in order and spread by them, those on all plans are not.
 # Slow under sanitizers.
 name=house_walks
 . "$(dirname "$0")/golden.bash"
@@ -120,6 +120,16 @@ cp asked.plan walked.plan
 golden explained "tartan explain $scratch/walked.plan '$two ; - ; first | second ; wall' --library asked"
 "$TARTAN" explain walked.plan "$two ; - ; first | second ; door" --library asked --full -o why.svg
 is 'drawn, as a line' "$(grep -c 'stroke="#143399"' why.svg)" 1
+# Where the first room is: to the right of the second one, half of the partition and 50 mm from it, at half its depth.
+is 'drawn, as a line in its room' "$(python3 - why.svg <<'PY'
+import re, sys
+svg = open(sys.argv[1], encoding="utf-8").read()
+x, y, along = map(float, re.search(r'stroke="#143399".* d="M(\S+) (\S+)h(\S+)"', svg).groups())
+left, top, wide, deep = map(float, re.search(r'fill-opacity=".35" d="M(\S+) (\S+)h(\S+)v([^h]*)h', svg).groups())
+mm = along / 2850
+print(abs(left + wide + 100 * mm - x) < 0.01, abs(top + deep / 2 - y) < 0.01)
+PY
+)" 'True True'
 golden kept "tartan explain $scratch/walked.plan '$two ; - ; first | second ; door' --library asked --full"
 form 'require exits(cell(second)) >= 2, walk(cell(second), to outside) <= 2m' >walked.plan
 golden dropped "tartan explain $scratch/walked.plan '$two ; - ; first | second ; door' --library asked"
@@ -132,4 +142,148 @@ test longest { value [3m space:4m | 4m space:4m ; - ; first | second ; door] = 2
 test ways { value [3m space:4m | 4m space:4m ; - ; first | second ; door] = 1 }
 PLAN
 golden tested "tartan test $scratch/walked.plan"
+golden measured "tartan house $scratch/walked.plan '3m space:4m | 4m space:4m ; - ; first | second ; door' --measures"
+golden measured_none "tartan house $scratch/walked.plan '3m space:4m | 4m space:4m ; - ; first | second ; wall' --measures -o -"
+golden measured_nowhere "tartan house $scratch/walked.plan '3m space:4m | 4m space:4m ; - ; first | second ; wall' --measures -o $scratch/x.json"
+
+# The JSON of each house says what the table of all says, and no more; costs among it are those of its bill, to the cent.
+cat >>furnished.plan <<'PLAN'
+measure longest = walk(cell(any), to outside)
+measure shortest = least walk(cell(any), to outside)
+measure ways = exits(cell(any))
+measure price = sum(cost)
+measure space = sum(area of cell(any))
+measure mixed = 2 * longest + sum(width)
+PLAN
+"$TARTAN" enumerate furnished.plan --library all --plan '4m space:5m | 4m space:5m' --columns -o houses.csv
+for k in 0 1 33 60 149; do "$TARTAN" house furnished.plan "#1:$k" --library all -o $k.json; done
+python3 - 0 1 33 60 149 <<'PY' || fail 'measures of a house'
+import csv, fractions, json, sys
+rows = list(csv.DictReader(open("houses.csv")))
+names = {"longest": "m", "shortest": "m", "ways": "", "price": "", "space": "m2", "mixed": "m"}
+seen = set()
+for k in sys.argv[1:]:
+    house, row = json.load(open(k + ".json")), rows[int(k)]
+    assert house["house"] == row["line"], (k, row["line"])
+    values = {m["measure"]: (m.get("value"), m["unit"]) for m in house["measures"]}
+    assert list(values) == list(names), values
+    for name, unit in names.items():
+        value, of = values[name]
+        shown = row[name + ("_" + unit if unit else "")]
+        assert of == unit and (value is None) == (shown == ""), (k, name, values, shown)
+        assert value is None or abs(fractions.Fraction(value) - fractions.Fraction(shown)) <= fractions.Fraction(1, 2000000), (k, name)
+        seen.add((name, value))
+    assert abs(fractions.Fraction(values["price"][0]) - fractions.Fraction(house["cost"])) < 1, (k, house["cost"])
+    area = sum((x1 - x0) * (y1 - y0) for x0, x1, y0, y1 in (c["rect"] for c in house["cells"]))
+    assert fractions.Fraction(values["space"][0]) == fractions.Fraction(area, 10**18), (k, area)
+    if values["longest"][0] is not None:
+        assert fractions.Fraction(values["mixed"][0]) == 2 * fractions.Fraction(values["longest"][0]) + 8, k
+assert len({v for n, v in seen if n == "longest"}) == 2 and len({v for n, v in seen if n == "price"}) > 2, seen
+PY
+
+# Put in order, spread and traded off by such measures, on one plan: as Python does with the table of all, in which some have no value.
+cat >>furnished.plan <<'PLAN'
+library some from rows in f { require walk(cell(any), to outside) <= 3.9m }
+PLAN
+cat >doors.plan <<'PLAN'
+schema row { width role length = 4m  zone house role band = space(5m) }
+library rows using row { trays 1..2 }
+form g of row {
+  storey ground 2.7m
+  wall 200mm
+  partition 100mm
+  deck 300mm
+  roof 200mm
+  way 700mm
+  function room at cell(any)
+  opening door wide 900mm high 2m passage sliding
+  opening arch wide 1.2m high 2m passage leafless
+  face cell(any) beside cell(any) = door | arch | wall
+  face cell(any) outside left = door | arch | wall
+  face cell(any) outside = wall
+  tile rooms for room { item table left 2m..3m, back 1.5m..3m }
+  tile benches for room { against wall  item bench left 300mm..2m, back 0..400mm }
+  material pine "#c0a080" price 100 per m2 for table
+  material oak "#806040" price 75.50 per each for bench
+}
+library doors from rows in g { }
+measure far using g = walk(cell(any), to outside)
+measure near using g = least walk(cell(any), to outside)
+measure out using g = exits(cell(any))
+measure paid using g = sum(cost)
+measure both using g = far * 1/3 - near + sum(width) / 7
+PLAN
+plan='4m space:5m | 4m space:5m'
+"$TARTAN" enumerate doors.plan --library doors --plan "$plan" --columns -o doors.csv
+ask() { "$TARTAN" "$1" doors.plan "${@:2}" --library doors --plan "$plan" 2>said; }
+ask best 9 --least far --then-most paid --format json >best.1
+ask best 3000 --most far --then-least out --then-least paid --format json >best.2
+ask best 3000 --most both --format json >best.3
+ask best 3000 --most paid --then-least out --format json >best.4
+ask best 500 --least far --then-most paid --diverse --format json >best.5
+ask best 3000 --most both --format json --threads 4 >best.6
+ask pareto --least far --most paid --json >front.1
+ask pareto --least both --most near --least paid --json >front.2
+ask count --by far --json >by.1
+ask count --by both --json >by.2
+ask count --by out --json >by.3
+python3 - <<'PY' || fail 'houses in order by walks'
+import csv, fractions, json
+rows = list(csv.DictReader(open("doors.csv")))
+column = {"far": "far_m", "near": "near_m", "out": "out", "both": "both_m", "paid": "paid"}
+def value(row, name):
+    return None if row[column[name]] == "" else fractions.Fraction(row[column[name]])
+def valued(*names):
+    return [r for r in rows if None not in [value(r, n) for n in names]]
+def found(name):
+    return [json.loads(line) for line in open(name)]
+def ordered(*wishes):
+    return sorted(valued(*(n for n, most in wishes)), key=lambda r: [-value(r, n) if most else value(r, n) for n, most in wishes])
+close = fractions.Fraction(1, 1000000)
+def same(name, wishes, count):
+    got, want = found(name), ordered(*wishes)[:count]
+    assert [h["house"] for h in got] == [r["line"] for r in want], (name, len(got), len(want))
+    for h, r in zip(got, want):
+        values = h["values"] if "values" in h else [h["value"]]
+        assert all(abs(fractions.Fraction(v) - value(r, n)) <= close for v, (n, most) in zip(values, wishes)), (name, h)
+assert len(rows) > 200 and 50 < len(valued("far")) < len(rows), (len(rows), len(valued("far")))
+same("best.1", [("far", False), ("paid", True)], 9)
+same("best.2", [("far", True), ("out", False), ("paid", False)], 3000)
+same("best.3", [("both", True)], 3000)
+same("best.4", [("paid", True), ("out", False)], 3000)
+same("best.6", [("both", True)], 3000)
+diverse = {h["house"] for h in found("best.5")}
+assert len(found("best.5")) == len(diverse) == 500 and diverse <= {r["line"] for r in valued("far", "paid")}, len(diverse)
+assert found("best.5")[0]["house"] == found("best.1")[0]["house"]
+def front(name, wishes):
+    of = lambda r: tuple(-value(r, n) if most else value(r, n) for n, most in wishes)
+    all = valued(*(n for n, most in wishes))
+    keep = [r for r in all if not any(of(o) != of(r) and all_le(of(o), of(r)) for o in all)]
+    want = {}
+    for r in keep:
+        want.setdefault(of(r), []).append(r["line"])
+    got = json.load(open(name))["points"]
+    assert [(p["house"], p["houses"]) for p in got] == [(want[k][0], str(len(want[k]))) for k in sorted(want)], (name, got, want)
+    return len(got)
+def all_le(a, b):
+    return all(x <= y for x, y in zip(a, b))
+assert front("front.1", [("far", False), ("paid", True)]) > 1
+front("front.2", [("both", False), ("near", True), ("paid", False)])
+for number, name in enumerate(["far", "both", "out"], 1):
+    got, want = json.load(open("by.%d" % number)), {}
+    for r in valued(name):
+        want[value(r, name)] = want.get(value(r, name), 0) + 1
+    assert [int(d["houses"]) for d in got["distribution"]] == [want[k] for k in sorted(want)], (name, got, want)
+    assert all(abs(fractions.Fraction(d["value"]) - k) <= close for d, k in zip(got["distribution"], sorted(want))), name
+    assert int(got["houses"]) == len(valued(name)) and int(got.get("none", 0)) == len(rows) - len(valued(name)), name
+PY
+"$TARTAN" best doors.plan 3 --library doors --plan "$plan" --least far -o best.svg 2>/dev/null
+[ -s best.svg ] || fail 'the best by walks are not drawn'
+is 'of a library that asks for walks, by another measure' "$("$TARTAN" best furnished.plan 3000 --library some --plan "$plan" --least price 2>/dev/null | grep -v '^#' | sort)" \
+    "$("$TARTAN" enumerate furnished.plan --library some --plan "$plan" | sort)"
+sed 's/trays 1..2/trays 1..6/' furnished.plan >many.plan
+golden many "tartan best $scratch/many.plan 3 --library all --plan '4m space:5m | 4m space:5m | 4m space:5m | 4m space:5m | 4m space:5m | 4m space:5m' --least longest"
+golden best_none "tartan best $scratch/walked.plan 3 --plan '3m space:4m | 4m space:4m' --library all --least longest"
+golden best_all "tartan best $scratch/walked.plan 3 --library all --least longest"
+golden spread "tartan count $scratch/walked.plan --plan '3m space:4m | 4m space:4m' --library all --by longest"
 finish

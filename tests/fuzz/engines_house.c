@@ -34,7 +34,7 @@ static void build(const tn_house *house)
     tn_buffer text = {0};
     tn_costs costs = {0};
     if (tn_house_solids(house, &solids, &error) == TN_OK) {
-        tn_house_describe(house, &solids, &text, &error);
+        tn_house_describe(house, &solids, NULL, 0, &text, &error);
         if (tn_form_has_costs(house->form))
             tn_house_costs(house, &solids, &costs, &error);
     }

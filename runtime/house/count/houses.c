@@ -353,9 +353,11 @@ void tn_other_clauses_set(const tn_house_form *form, const tn_house_library_reco
 static tn_status refuse_measure(const char *name, tn_error *error)
 {
     tn_fail(error, TN_LIMIT, E_WALKS_OF_ALL,
-            "`%.80s` asks how one walks through a house: houses are not put in order or spread by that", name);
-    tn_error_help(error, "compare it in a library, `require %.80s <= 25m`, and list the houses on one plan (--plan)",
-                  name);
+            "`%.80s` asks how one walks through a house: houses are not put in order or spread by that all "
+            "together",
+            name);
+    tn_error_help(error, "those on one plan are gone through: `tartan best`, `tartan pareto` and `tartan count --by` "
+                         "with --plan PLAN or '#P'");
     return TN_LIMIT;
 }
 

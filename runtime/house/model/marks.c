@@ -207,7 +207,7 @@ static void put_heights(const tn_house *house, double u, double top, const tn_ma
         places[count++] = floor_at;
         places[count++] = ceiling;
     }
-    places[count++] = top;
+    places[count++] = rounded(style->us, top);
     tn_marks_chain(marks, house, places, count, u, true, style);
 }
 

@@ -240,8 +240,10 @@ static tn_status put_symbols(const tn_planned *p, tn_marks *marks, tn_error *err
 
 /* How far the first chain is from the walls, in the size of lettering: tags and marks of sections stand before it. */
 #define FIRST_CHAIN 5.5
-#define FIRST_CHAIN_COARSE 3.2
+#define FIRST_CHAIN_COARSE 3.4
 #define NEXT_CHAIN 2.8
+#define SECTION 2.5 /* and its marks, which are 1.3 long: what is written on the first chain is beyond them */
+#define SECTION_COARSE 0.3
 
 /* The sides of a plan, as they are drawn: the front is below. */
 static const struct tn_plan_side {
@@ -316,7 +318,7 @@ static void put_sections(const tn_planned *p, const double low[2], const double 
         for (int end = 0; end < 2; end++) {
             double from[2], to[2], tip[2], text[2], out = end ? l : -l;
             from[across] = to[across] = -(double)section->at;
-            from[along] = (end ? high : low)[along] + (p->style->coarse ? 0.8 : 2.5) * out;
+            from[along] = (end ? high : low)[along] + (p->style->coarse ? SECTION_COARSE : SECTION) * out;
             to[along] = from[along] + 1.3 * out;
             tip[across] = to[across] + 1.2 * l; /* sections look towards larger u, or v */
             tip[along] = to[along];

@@ -352,11 +352,22 @@ static const double lights[][3] = {
     [TN_LIT_THING] = {0.45, 0.45, 0.45}, [TN_LIT_GROUND] = {0.35, 0.60, 0.90}, [TN_LIT_PERSON] = {0.10, 0.25, 0.65},
     [TN_LIT_WALK] = {0.08, 0.20, 0.60}};
 
+/* Where a place in the house is on its plan, which is turned, with the front below. */
+static double place_x(const tn_drawing_frame *f, int64_t x)
+{
+    return place_u(f, -(double)x);
+}
+
+static double place_y(const tn_drawing_frame *f, int64_t y)
+{
+    return place_v(f, -(double)y);
+}
+
 static void paint_walk(const tn_drawing_frame *f, const tn_rectangle *line)
 {
     const double *c = lights[TN_LIT_WALK];
-    tn_paint_move_to(f->paint, place_u(f, (double)line->x0), place_v(f, (double)line->y0));
-    tn_paint_line_to(f->paint, place_u(f, (double)line->x1), place_v(f, (double)line->y1));
+    tn_paint_move_to(f->paint, place_x(f, line->x0), place_y(f, line->y0));
+    tn_paint_line_to(f->paint, place_x(f, line->x1), place_y(f, line->y1));
     tn_paint_colour(f->paint, c[0], c[1], c[2]);
     tn_paint_line_width(f->paint, WALK_WIDTH);
     tn_paint_line_cap(f->paint, TN_CAP_ROUND);
@@ -368,8 +379,8 @@ static void paint_walk(const tn_drawing_frame *f, const tn_rectangle *line)
 static void paint_lit(const tn_drawing_frame *f, const tn_lit *lit)
 {
     const double *c = lights[lit->tone];
-    double x0 = place_u(f, -(double)lit->at.x1), x1 = place_u(f, -(double)lit->at.x0),
-           y0 = place_v(f, -(double)lit->at.y0), y1 = place_v(f, -(double)lit->at.y1); /* the front is below */
+    double x0 = place_x(f, lit->at.x1), x1 = place_x(f, lit->at.x0), y0 = place_y(f, lit->at.y0),
+           y1 = place_y(f, lit->at.y1);
     if (lit->at.x0 == lit->at.x1 || lit->at.y0 == lit->at.y1) {
         tn_paint_move_to(f->paint, x0, y0);
         tn_paint_line_to(f->paint, x1, y1);

@@ -10,7 +10,7 @@
 #include "runtime/house/picture/draw_tables.h"
 
 #define MARGIN 28.0
-#define GAP 26.0
+#define GAP 18.0
 #define CAPTION 22.0
 #define HEADING 24.0
 #define NOTE_LEADING 13.0
@@ -21,6 +21,8 @@
 #define BLOCK_WIDTH 320.0   /* of the title block, in points */
 #define BLOCK_HEIGHT 92.0
 #define FOOT_GAP 12.0
+#define NAME_SIZE 13.0
+#define SMALLER_IN_SPACE 2u /* nothing is measured in views in space: where room is short, their scale is so much smaller */
 #define VIEW_WIDTH 820.0 /* the most that one drawing takes, in points */
 #define VIEW_HEIGHT 620.0
 
@@ -33,6 +35,7 @@ typedef struct sheet {
     tn_mark_style style;
     uint32_t scale;
     double points;        /* a nanometre, in points */
+    uint32_t in_space;    /* how much smaller views in space are */
     double width, height; /* of the page */
     double foot;          /* room for tables, notes, the title block or the scale bar */
     tn_sheet_tables tables;
@@ -87,14 +90,20 @@ static void clear(sheet *s)
 
 /* ---- laying out */
 
+/* A nanometre of a drawing, in points. */
+static double points_of(const sheet *s, const tn_house_drawn *d)
+{
+    return d->projection.aspect.kind == TN_ASPECT_AXONOMETRIC ? s->points / s->in_space : s->points;
+}
+
 static double wide(const sheet *s, const tn_house_drawn *d)
 {
-    return (d->high[0] - d->low[0]) * s->points;
+    return (d->high[0] - d->low[0]) * points_of(s, d);
 }
 
 static double high(const sheet *s, const tn_house_drawn *d)
 {
-    return (d->high[1] - d->low[1]) * s->points;
+    return (d->high[1] - d->low[1]) * points_of(s, d);
 }
 
 static bool is_section(const tn_aspect *aspect)
@@ -217,16 +226,22 @@ static void set_foot(sheet *s, double width)
               NOTE_LEADING * NOTE_LINES * (double)s->drawing->note_count;
 }
 
-/* Does everything fit on a page of this size? */
-static bool fits(sheet *s, double width, double height)
+/* Does everything fit on a page of this size, with views in space so much smaller? */
+static bool fits_so(sheet *s, double width, double height, uint32_t in_space)
 {
     set_foot(s, width);
+    s->in_space = in_space;
     double most, down, room = width - 2 * MARGIN;
     set_rows(s, room, room, &most, &down);
     s->width = width;
     s->height = height;
     s->spare = height - MARGIN - s->foot - down;
     return most <= room && s->spare >= 0;
+}
+
+static bool fits(sheet *s, double width, double height)
+{
+    return fits_so(s, width, height, 1) || fits_so(s, width, height, SMALLER_IN_SPACE);
 }
 
 #define WRAPS 48 /* widths of rows that are tried */
@@ -341,22 +356,26 @@ static tn_status choose_page(sheet *s, tn_error *error)
 
 /* ---- painting */
 
-/* *section: how many were drawn so far. */
+/* Its title, with the letter of a section, and the scale if it is not that of the sheet. *section: how many were drawn
+ * so far. */
 static void paint_caption(const sheet *s, tn_paint *paint, size_t i, size_t *section)
 {
     const tn_house_drawn *d = &s->drawn[i];
-    double middle = d->x + wide(s, d) / 2;
-    char caption[sizeof d->projection.title + 16];
+    char caption[sizeof d->projection.title + 40], scale[32];
     const char *title = d->projection.title;
-    char letter = is_section(&s->drawing->aspects[i]) && *section < s->style.section_count
-                      ? s->sections[(*section)++].letter
-                      : '\0';
-    if (letter)
+    snprintf(caption, sizeof caption, "%s", title);
+    if (is_section(&s->drawing->aspects[i]) && *section < s->style.section_count) {
+        char letter = s->sections[(*section)++].letter;
         snprintf(caption, sizeof caption, "%c-%c  %s", letter, letter, title);
+    }
+    if (d->projection.aspect.kind == TN_ASPECT_AXONOMETRIC && s->in_space > 1) {
+        tn_scale_write(s->scale * s->in_space, s->metric, scale, sizeof scale);
+        snprintf(caption, sizeof caption, "%s, %s", title, scale);
+    }
     tn_paint_layer(paint, TN_LAYER_TITLE);
     tn_paint_colour(paint, 0, 0, 0);
     tn_paint_face(paint, TN_LETTERING, true);
-    tn_type_line(paint, middle, d->y + CAPTION - 6, TN_ALIGN_CENTRE, letter ? caption : title);
+    tn_type_line(paint, d->x + wide(s, d) / 2, d->y + CAPTION - 6, TN_ALIGN_CENTRE, caption);
 }
 
 /* A drawing to scale, with its caption. */
@@ -364,11 +383,12 @@ static void paint_drawing(const sheet *s, const tn_canvas *canvas, size_t i, siz
 {
     const tn_house_drawn *d = &s->drawn[i];
     tn_paint *paint = tn_canvas_paint(canvas);
+    double points = points_of(s, d);
     const tn_drawn_view view = {d->projection.title,  d->x,
                                 d->y - high(s, d),    wide(s, d),
-                                high(s, d) + CAPTION, {d->x - d->low[0] * s->points, d->y + d->low[1] * s->points}};
+                                high(s, d) + CAPTION, {d->x - d->low[0] * points, d->y + d->low[1] * points}};
     tn_paint_view_begin(paint, &view);
-    tn_draw_projection(canvas, d, s->points);
+    tn_draw_projection(canvas, d, points);
     paint_caption(s, paint, i, section);
     tn_paint_view_end(paint);
 }
@@ -436,6 +456,16 @@ static void paint_particulars(const sheet *s, tn_paint *paint, double x, double 
     tn_type_fit(paint, x, y + NOTE_LEADING + 2, TN_ALIGN_LEFT, BLOCK_WIDTH - 2 * FOOT_GAP, text);
 }
 
+/* What the house is called, smaller if it is long. */
+static void paint_name(tn_paint *paint, double x, double baseline, double room, const char *name)
+{
+    tn_paint_face(paint, NAME_SIZE, true);
+    double across = tn_type_width(paint, name);
+    if (across > room)
+        tn_paint_face(paint, fmax(0.999 * NAME_SIZE * room / across, TN_LETTERING), true);
+    tn_type_fit(paint, x, baseline, TN_ALIGN_LEFT, room, name);
+}
+
 /* At the lower right of a sheet: the house, what is drawn, and the scale. */
 static void paint_block(const sheet *s, tn_paint *paint, double x, double y)
 {
@@ -451,9 +481,8 @@ static void paint_block(const sheet *s, tn_paint *paint, double x, double y)
     tn_paint_move_to(paint, x, y + 58);
     tn_paint_line_to(paint, x + BLOCK_WIDTH, y + 58);
     tn_paint_stroke(paint);
-    tn_paint_face(paint, 13, true);
     if (s->drawing->title)
-        tn_type_fit(paint, x + FOOT_GAP, y + 17, TN_ALIGN_LEFT, BLOCK_WIDTH - 2 * FOOT_GAP, s->drawing->title);
+        paint_name(paint, x + FOOT_GAP, y + 17, BLOCK_WIDTH - 2 * FOOT_GAP, s->drawing->title);
     paint_particulars(s, paint, x + FOOT_GAP, y + 37);
     paint_bar(s, paint, x + BLOCK_WIDTH - 2 * FOOT_GAP, y + 66);
 }
@@ -493,6 +522,7 @@ tn_status tn_house_draw(const tn_house *house, const tn_solids *solids, const tn
 {
     sheet s = {.house = house,
                .drawing = drawing,
+               .in_space = 1,
                .drawn = calloc(drawing->count + 1, sizeof *s.drawn),
                .metric = tn_house_length_style(house) != TN_STYLE_FEET,
                .foot = 30 + NOTE_LEADING * NOTE_LINES * (double)drawing->note_count};

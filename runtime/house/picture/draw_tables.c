@@ -72,11 +72,34 @@ tn_status tn_sheet_tables_make(const tn_house *house, const tn_mark_style *style
     return status;
 }
 
+static bool is_heading(const tn_table_row *row)
+{
+    return row->size[0] == '\0';
+}
+
+/* Where a row stands that comes after so many: a heading is not the last of a column. */
+static size_t place_row(const tn_table_row *row, size_t before, size_t deep)
+{
+    return is_heading(row) && before % deep == deep - 1 ? before + 1 : before;
+}
+
+static size_t count_places(const tn_sheet_tables *tables, size_t deep)
+{
+    size_t places = 0;
+    for (size_t i = 0; i < tables->count; i++)
+        places = place_row(&tables->rows[i], places, deep) + 1;
+    return places;
+}
+
 size_t tn_sheet_tables_deep(const tn_sheet_tables *tables, double width, size_t least)
 {
     size_t columns = width > COLUMN_WIDTH ? (size_t)(width / COLUMN_WIDTH) : 1,
            deep = (tables->count + columns - 1) / columns;
-    return deep > least ? deep : least;
+    if (deep < least)
+        deep = least;
+    while (count_places(tables, deep) > deep * columns)
+        deep++;
+    return deep;
 }
 
 void tn_sheet_tables_paint(const tn_sheet_tables *tables, tn_paint *paint, double x, double y, size_t deep,
@@ -84,11 +107,12 @@ void tn_sheet_tables_paint(const tn_sheet_tables *tables, tn_paint *paint, doubl
 {
     tn_paint_colour(paint, 0, 0, 0);
     tn_paint_layer(paint, TN_LAYER_TEXT);
-    for (size_t i = 0; i < tables->count; i++) {
+    for (size_t i = 0, place = 0; i < tables->count; i++, place++) {
         const tn_table_row *row = &tables->rows[i];
-        double left = x + (double)(i / deep) * COLUMN_WIDTH,
-               baseline = y + (double)(i % deep + 1) * TN_TABLE_LEADING - 3;
-        bool heading = row->size[0] == '\0';
+        place = place_row(row, place, deep);
+        double left = x + (double)(place / deep) * COLUMN_WIDTH,
+               baseline = y + (double)(place % deep + 1) * TN_TABLE_LEADING - 3;
+        bool heading = is_heading(row);
         tn_paint_face(paint, lettering, heading);
         tn_type_line(paint, left, baseline, TN_ALIGN_LEFT, row->name);
         tn_type_fit(paint, left + (heading ? 0 : NAME_WIDTH), baseline, TN_ALIGN_LEFT,

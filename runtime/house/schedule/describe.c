@@ -368,11 +368,36 @@ static void put_parts(const tn_house *house, const tn_costs *costs, tn_json *jso
     tn_json_list_end(json);
 }
 
-/* The whole, with the house's line and what it costs. */
+/* ---- measures */
+
+static void put_value(const tn_house_value *value, tn_json *json)
+{
+    tn_buffer text = {0};
+    tn_json_object(json, NULL);
+    tn_json_string(json, "measure", value->measure);
+    if (value->has) {
+        json->text->failed |= !tn_amount_write_exact(value->unit, value->value, &text);
+        tn_json_string(json, "value", text.data ? text.data : "");
+    }
+    tn_json_string(json, "unit", tn_amount_unit_name(value->unit));
+    tn_json_object_end(json);
+    free(text.data);
+}
+
+static void put_values(const tn_house_value *values, size_t count, tn_json *json)
+{
+    tn_json_list(json, "measures");
+    for (size_t i = 0; i < count; i++)
+        put_value(&values[i], json);
+    tn_json_list_end(json);
+}
+
+/* ---- all */
+
+/* All but its measures, with the house's line and what it costs. */
 static tn_status put_house(const tn_house *house, const tn_solids *solids, const char *line, const uint32_t *rooms,
                            const tn_costs *costs, tn_json *json, tn_error *error)
 {
-    tn_json_object(json, NULL);
     tn_json_string(json, "house", line);
     put_cells(house, json);
     tn_status status = put_faces(house, json, error);
@@ -384,12 +409,11 @@ static tn_status put_house(const tn_house *house, const tn_solids *solids, const
     put_parts(house, costs, json);
     if (tn_form_has_costs(house->form))
         put_money(json, "cost", costs->hundredths);
-    tn_json_object_end(json);
-    tn_json_end_line(json);
     return status;
 }
 
-tn_status tn_house_describe(const tn_house *house, const tn_solids *solids, tn_buffer *out, tn_error *error)
+tn_status tn_house_describe(const tn_house *house, const tn_solids *solids, const tn_house_value *values,
+                            size_t value_count, tn_buffer *out, tn_error *error)
 {
     uint32_t *rooms;
     tn_buffer line = {0};
@@ -402,8 +426,13 @@ tn_status tn_house_describe(const tn_house *house, const tn_solids *solids, tn_b
     status = tn_house_write(house, &line, error);
     if (status == TN_OK)
         status = tn_house_costs(house, solids, &costs, error);
+    tn_json_object(&json, NULL);
     if (status == TN_OK)
         status = put_house(house, solids, line.data, rooms, &costs, &json, error);
+    if (value_count > 0)
+        put_values(values, value_count, &json);
+    tn_json_object_end(&json);
+    tn_json_end_line(&json);
     tn_costs_clear(&costs);
     free(rooms);
     free(line.data);

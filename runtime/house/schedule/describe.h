@@ -5,10 +5,21 @@
 #include <gmp.h>
 
 #include "runtime/house/solids.h"
+#include "runtime/plan/measure/amount.h"
 
-/* Appends one JSON object: the line, cells, faces, rooms, solids, roofs and parts with costs (docs/houses.md). Lengths
- * in nanometres, areas in square nanometres and what is not whole as texts. TN_MEMORY. */
-tn_status tn_house_describe(const tn_house *house, const tn_solids *solids, tn_buffer *out, tn_error *error);
+/* What a measure is worth on a house, in nanometres to the power of its unit; has: it has a value. */
+typedef struct tn_house_value {
+    const char *measure; /* borrowed of the module */
+    tn_amount_unit unit;
+    bool has;
+    mpq_t value;
+} tn_house_value;
+
+/* Appends one JSON object: the line, cells, faces, rooms, solids, roofs, parts with costs, and the values of measures
+ * (docs/houses.md). Lengths in nanometres, areas in square nanometres and what is not whole as texts; values of measures
+ * in feet or metres. TN_MEMORY. */
+tn_status tn_house_describe(const tn_house *house, const tn_solids *solids, const tn_house_value *values,
+                            size_t value_count, tn_buffer *out, tn_error *error);
 
 /* Appends the parts as CSV: their number, area and volume; where the form has materials, also prices and costs, with
  * the total in the last line. TN_MEMORY. */

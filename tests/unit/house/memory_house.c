@@ -302,7 +302,7 @@ static tn_status mesh(tn_error *error)
 static tn_status describe(tn_error *error)
 {
     tn_buffer text = {0};
-    tn_status status = tn_house_describe(&house, &solids, &text, error);
+    tn_status status = tn_house_describe(&house, &solids, NULL, 0, &text, error);
     if (status == TN_OK)
         status = tn_house_parts(&house, &solids, &text, error);
     free(text.data);
