@@ -492,9 +492,9 @@ static tn_status put_limits(tn_reporting *r)
                                 r->pairs_unknown, r->pairs);
     if (good && r->clauses_unknown)
         good = tn_buffer_printf(&more[1],
-                                "of %zu clauses it is not known whether they alone keep a plan out: past the limit of "
-                                "states",
-                                r->clauses_unknown);
+                                "of %zu clause%s it is not known whether a plan is kept out by that alone: past the "
+                                "limit of states",
+                                r->clauses_unknown, r->clauses_unknown == 1 ? "" : "s");
     good = good && tn_page_limits(&r->page, r->opened, more, 2);
     free(more[0].data);
     free(more[1].data);

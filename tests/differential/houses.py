@@ -15,7 +15,7 @@ LENGTHS = {
 WEIGHTS.update({
     "size: NUMBER": plans.MISTAKE, "shape: NAME OPEN arguments CLOSE": 2, "cell_not: CELL OPEN specifier CLOSE": 5, "cell_not: NOT cell_not": .2,
     "cell_not: OPEN cells CLOSE": .2, "cells: cell_ors": .08, "cell_and: cell_ands": .1, "sections: section_ors": 1, "section_and: section_ands": 2, "section_ands: section_ands AND section_not": 2,
-    "material_where: WHERE sections": 2, "tile_part: stretch_word NAME doc reaches drawn": 2, "drawn: %empty": 12, "drawn: SYMBOL OPEN_BRACE symbol_lines CLOSE_BRACE": plans.MISTAKE,
+    "material_where: WHERE sections": 2, "tile_part: stretch_word NAME doc reaches drawn": 2, "drawn: %empty": 12, "drawn: SYMBOL OPEN_BRACE symbol_lines CLOSE_BRACE": 2, "symbol_lines: symbol_lines symbol_line": 3,
     "section_not: SECTION OPEN section_items CLOSE": 4, "opening_part: PASSAGE": 8, "opening_part: SILL size": .3, "opening_part: NEAR side size": .2, "opening_parts: opening_parts opening_part": 2,
     "section_not: OPEN sections CLOSE": 1, "section_not: NOT section_not": .5,
     "primary: APART OPEN cells COMMA FROM cells walk_by CLOSE": 4, "primary: TOUCH OPEN cells COMMA cells by_kinds CLOSE": 2,
@@ -109,7 +109,7 @@ CONTEXTS.update({
     "tile_part: WIDE size DOTS size": sized(_1="short", _3="long"), "tile_part: DEEP size DOTS size": sized(_1="short", _3="long"),
     "tile_part: AGAINST or_names": named(_1="outside"), "tile_part: stretch_word NAME doc drawn": fresh("item"),
     "tile_part: stretch_word NAME doc reaches drawn": fresh("item"),
-    "drawn: SYMBOL NAME": named(_1="symbol"), "line_end: side_word size COMMA side_word size": sized(_1="short", _4="short"), "reach: side_word size DOTS size": sized(_1="short", _3="long"),
+    "drawn: SYMBOL NAME": named(_1="symbol"), "reach: side_word size DOTS size": sized(_1="short", _3="long"),
     "reach: side_word size DOTS side_word size": sized(_1="short", _4="short"),
     "argument: NAME": named(_0="roof-word"), "argument: NAME LENGTH": lambda maker, place: {0: place.but(want="exact", text="eaves"), 1: place.but(want="roof")},
     "argument: LENGTH": sized(_0="roof"), "shape: NAME OPEN arguments CLOSE": named(_0="roof-kind"),
@@ -298,6 +298,16 @@ def kinds(maker, depth, place):
     return listed(maker.grammar, "kinds", [maker.word("NAME", text) for text in sorted(names)])
 
 
+def line_end(maker, depth, place):
+    """From a side and from one across it."""
+    sides = [maker.random.choice(pair) for pair in (("LEFT", "RIGHT"), ("BACK", "FRONT"))]
+    if maker.chance(.5):
+        sides.reverse()
+    short = maker.random.choice(LENGTHS["short"][place.metric])
+    sizes = [maker.node("size: LENGTH", maker.word("LENGTH", short)) for _ in sides]
+    return maker.node("line_end: side_word size COMMA side_word size", maker.node("side_word: " + sides[0]), sizes[0], maker.node("side_word: " + sides[1]), sizes[1])
+
+
 def thickness(maker, depth, place):
     """Each of the four once: the next that the form being made lacks."""
     done = form_of(place).__dict__.setdefault("thicknesses", [])
@@ -308,7 +318,7 @@ def thickness(maker, depth, place):
     return maker.node("thickness: " + left[0])
 
 
-plans.HOOKS.update({"cells": plain_cells, "shapes": shapes, "section_item": section_item, "form_clauses": form_clauses, "kinds": kinds, "thickness": thickness})
+plans.HOOKS.update({"cells": plain_cells, "shapes": shapes, "section_item": section_item, "form_clauses": form_clauses, "kinds": kinds, "thickness": thickness, "line_end": line_end})
 AVAILABLE["primary: SECTION OPEN section_items CLOSE"] = lambda place: place.form and form_of(place).sections
 AVAILABLE["size: NUMBER"] = lambda place: place.want in ("short", "sill")                    # 0, where a size may be none
 AVAILABLE["form_clause: forbid_word sections"] = AVAILABLE["material_where: WHERE sections"] = lambda place: form_of(place).sections
