@@ -15,6 +15,19 @@ house="14' none room:14' porch:5' | 10' none room:14' porch:5' | 10' lean-to:7' 
 is 'a cottage at 1/16"' "$(python3 -B "$tests/house_drawn.py" "$scratch/house.svg" && echo fine)" fine
 is 'its name is whole' "$(grep -c '>one or two storeys under a gable or a shed<' "$scratch/house.svg")" 1
 is 'heights to 1/8"' "$(grep -c '[0-9]/\(16\|32\|64\)"<' "$scratch/house.svg")" 0
+# The floor of a porch is told from the wall beside it along an upright line: only the roof slopes, by 4 in 12.
+"$TARTAN" house cottage "$house" --view elevation:left -o "$scratch/left.svg" 2>"$scratch/said" || fail "no elevation: $(cat "$scratch/said")"
+is 'lines that slope' "$(python3 - "$scratch/left.svg" <<'PY'
+import re, sys
+slopes = set()
+for path in re.findall(r'stroke-width=".992"[^>]* d="([^"]*)"', open(sys.argv[1], encoding="utf-8").read()):
+    for command, numbers in re.findall(r"([mlMLhv])([^a-zA-Z]*)", path):
+        pairs = [float(n) for n in re.findall(r"-?(?:\d+\.?\d*|\.\d+)", numbers)]
+        lines = [] if command in "hv" else list(zip(pairs[::2], pairs[1::2]))[1 if command in "mM" else 0:]
+        slopes |= {round(abs(dy / dx), 3) for dx, dy in lines if abs(dx) > 0.01 and abs(dy) > 0.01}
+print(*slopes)
+PY
+)" 0.333
 # Three row houses on three storeys are legible on A1, if views in space are smaller; one has room for large ones.
 is 'views of one row house' "$(grep -c '>axonometric<' "$scratch/one.svg")" 1
 house='2.2m first three room:5m room:4m room:3m | 4m - three room:5m room:4m none | 4m first three room:5m room:4m none | 2.2m - three room:5m room:4m room:3m | 4m first three room:5m room:4m none | 2.2m - three room:5m room:4m room:3m ; 2 flat flat shed(front,1:4) brick'
