@@ -10,13 +10,17 @@ for house in '#2:18693' '#2:5' '#2:9001'; do
     cp "$scratch/house.svg" "$scratch/one.svg"
 done
 # Small scales leave less room: marks of sections, too, stand apart from dimensions.
-house="14' none room:14' porch:5' | 10' none room:14' porch:5' | 10' lean-to:7' room:14' none ; 1 2 shed(back,4:12) 1 ; living bedroom porch-deck | stair stair porch-deck | bath kitchen bedroom"
-"$TARTAN" house cottage "$house" --scale 192 -o "$scratch/house.svg" 2>"$scratch/said" || fail "no cottage: $(cat "$scratch/said")"
+cottage="14' none room:14' porch:5' | 10' none room:14' porch:5' | 10' lean-to:7' room:14' none ; 1 2 shed(back,4:12) 1 ; living bedroom porch-deck | stair stair porch-deck | bath kitchen bedroom"
+"$TARTAN" house cottage "$cottage" --scale 192 -o "$scratch/house.svg" 2>"$scratch/said" || fail "no cottage: $(cat "$scratch/said")"
 is 'a cottage at 1/16"' "$(python3 -B "$tests/house_drawn.py" "$scratch/house.svg" && echo fine)" fine
 is 'its name is whole' "$(grep -c '>one or two storeys under a gable or a shed<' "$scratch/house.svg")" 1
 is 'heights to 1/8"' "$(grep -c '[0-9]/\(16\|32\|64\)"<' "$scratch/house.svg")" 0
+# In a small room a number is written over furniture rather than into the circle of a tag.
+house="12' single - - empty open:12' open:4' | 12' single - - dense:4' dense:12' empty | 4' single - - dense:4' open:12' empty | 8' single - - dense:4' dense:12' empty | 12' double public great dense:4' open:8' empty ; 1 flat 2 shed(front,3:12) 1 flat shingle ; bedroom bedroom seat | entry stair stair | store passage passage | bath hearth bath | kitchen hall void ; window ; day-bed.left day-bed.left.m window-seat.left coats.right closet.back shower-room.back.m fire.front bath-room.right niche.back gathering.front.m"
+"$TARTAN" house lahave-complete "$house" --view plan:ground -o "$scratch/small.svg" 2>"$scratch/said" || fail "no small rooms: $(cat "$scratch/said")"
+is 'small rooms' "$(python3 -B "$tests/house_drawn.py" "$scratch/small.svg" && echo fine)" fine
 # The floor of a porch is told from the wall beside it along an upright line: only the roof slopes, by 4 in 12.
-"$TARTAN" house cottage "$house" --view elevation:left -o "$scratch/left.svg" 2>"$scratch/said" || fail "no elevation: $(cat "$scratch/said")"
+"$TARTAN" house cottage "$cottage" --view elevation:left -o "$scratch/left.svg" 2>"$scratch/said" || fail "no elevation: $(cat "$scratch/said")"
 is 'lines that slope' "$(python3 - "$scratch/left.svg" <<'PY'
 import re, sys
 slopes = set()
