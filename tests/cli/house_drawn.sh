@@ -38,5 +38,6 @@ house='2.2m first three room:5m room:4m room:3m | 4m - three room:5m room:4m non
 "$TARTAN" house row-houses "$house" -o "$scratch/house.svg" 2>"$scratch/said" || fail "no row: $(cat "$scratch/said")"
 is 'three row houses' "$(grep -o '>1:[0-9]*<' "$scratch/house.svg")" '>1:100<'
 is 'their views' "$(grep -c '>axonometric, 1:200<' "$scratch/house.svg")" 1
+is 'one hatch of earth in both sections' "$(grep -o '<pattern[^>]*rotate(0)' "$scratch/house.svg" | grep -o ' width="[^"]*"' | sort -u | wc -l)" 1
 is 'their sheet' "$(python3 -B "$tests/house_drawn.py" "$scratch/house.svg" && echo fine)" fine
 finish
