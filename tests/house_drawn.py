@@ -3,7 +3,7 @@
 or house_drawn.py SVG (of any sheet), of which it looks only at whether what is written is legible.
 
 Lines are as wide as ISO 128 has them, capitals at least 2.5 mm high; each tag in a circle is in the table of doors and windows, with as many
-as the house has; each room's number is in the table of rooms, with the net area that the JSON has; furniture is drawn by symbols; nothing is written over something else that is written."""
+as the house has; each room's number is in the table of rooms, with the net area that the JSON has; furniture is drawn by symbols; nothing is written over something else that is written, or into the circle of a tag."""
 import html
 import json
 import re
@@ -25,6 +25,8 @@ def place(at, text):
     of = {name: value for name, value in re.findall(r'([a-z-]+)="([^"]*)"', at)}
     x, y, size = float(of["x"]), float(of["y"]), float(of["font-size"])
     wide = 0.5 * len(html.unescape(text)) * size
+    if "text-anchor" in of and re.fullmatch(r"[DW]\d+", text):
+        return x - 0.9 * size, y - 1.25 * size, x + 0.9 * size, y + 0.55 * size  # in its circle
     before = {"start": 0, "middle": wide / 2, "end": wide}[of.get("text-anchor", "start")]
     if of.get("transform", "").startswith("rotate(-90 "):
         return x - 0.7 * size, y + before - wide, x, y + before

@@ -25,6 +25,7 @@ static tn_status add_class(tn_survey *s, const tn_cell *cell, bool outdoor, tn_e
         return tn_fail_memory(error);
     tn_cell_class *class = &s->classes[s->class_count];
     int64_t wide = cell->at.x1 - cell->at.x0, deep = cell->at.y1 - cell->at.y0;
+    tn_survey_see_ends(s, cell);
     uint64_t *met = calloc(s->met_words + s->words, sizeof *met);
     if (!met)
         return tn_fail_memory(error);
@@ -206,7 +207,7 @@ static tn_status see_tray(tn_survey *s, tn_error *error)
 tn_status tn_survey_trays(tn_survey *s, tn_error *error)
 {
     const tn_form_record *form = s->form.record;
-    uint64_t lines = 2 * (uint64_t)form->face_count + form->rule_count + 1;
+    uint64_t lines = 2 * (uint64_t)form->face_count + form->rule_count + s->end_count + 1;
     tn_status status = TN_OK;
     if ((uint64_t)s->schema->tray_count * s->form.zone_count * form->storey_count * lines > DECISIONS_MAX)
         return TN_OK;
@@ -307,6 +308,7 @@ void tn_survey_free(tn_survey *s)
         free(s->uses[i].outside_of);
     free(s->classes);
     free(s->links);
+    free(s->ends);
     free(s->places);
     free(s->first_places);
     free(s->functions);

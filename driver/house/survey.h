@@ -53,6 +53,15 @@ typedef struct tn_kind_use {
     tn_survey_meeting nearest;                    /* a face where it does not fit (a: NULL, none), nearest to it */
 } tn_kind_use;
 
+/* The cells at an end of a walk that the file asks for. met: some cell is so. */
+typedef enum tn_walk_part { TN_WALK_BEGINS, TN_WALK_ENDS, TN_WAYS_BEGIN } tn_walk_part;
+typedef struct tn_walk_end {
+    uint32_t function;
+    tn_walk_part part;
+    tn_span span;
+    bool met;
+} tn_walk_end;
+
 /* A void meets cells on the ground, which are none; cells above others. */
 enum { TN_VOID_LOWEST = 1, TN_VOID_ABOVE = 2 };
 
@@ -87,6 +96,8 @@ typedef struct tn_survey {
     size_t class_count, class_room;
     tn_passed *links;
     size_t link_count, link_room;
+    tn_walk_end *ends; /* none where no warnings are given */
+    size_t end_count, end_room;
 } tn_survey;
 
 #define TN_SURVEY_PLACES_MAX 10000u

@@ -77,6 +77,20 @@ tn_status tn_survey_link(tn_survey *survey, const tn_survey_meeting *meeting, in
 /* Warns of functions and storeys that nobody comes to. */
 tn_status tn_survey_reach(const tn_survey *survey, tn_error *error);
 
+/* ---- survey_walks.c */
+
+/* Does a measure or a comparison ask for walks or ways out in houses of the form (a FORM record)? */
+bool tn_survey_asks_walks(const tn_module *module, uint32_t form);
+
+/* Finds the ends of those that the opened file itself asks for; before its trays. TN_MEMORY. */
+tn_status tn_survey_ends(tn_survey *survey, const tn_opened *opened, tn_error *error);
+
+/* Notes at which of them the cell is. */
+void tn_survey_see_ends(tn_survey *survey, const tn_cell *cell);
+
+/* Warns of those at which no cell is. TN_MEMORY. */
+tn_status tn_survey_warn_walks(const tn_survey *survey, tn_opened *opened, tn_error *error);
+
 /* ---- survey_faces.c: lines of faces that never apply, or are hidden by those before them; notes which kinds are used
  */
 tn_status tn_survey_faces(tn_survey *survey, tn_error *error);

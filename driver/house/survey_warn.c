@@ -188,7 +188,7 @@ static void warn_opening(const tn_survey *s, uint32_t number)
 
 /* ---- forms */
 
-static tn_status warn(tn_survey *s, tn_error *error)
+static tn_status warn(const tn_survey *s, tn_error *error)
 {
     warn_functions(s);
     warn_voids(s);
@@ -208,16 +208,24 @@ static tn_status warn(tn_survey *s, tn_error *error)
     return status;
 }
 
+/* Of a form of another file only what this file asks of it is warned about. */
 static tn_status survey(tn_opened *opened, uint32_t form, tn_error *error)
 {
+    bool own = !(opened->module->FORM_records[form].flags & TN_IMPORTED);
     tn_survey *s;
-    tn_status status = tn_survey_begin(opened->module, form, opened, &s, error);
+    if (!own && !tn_survey_asks_walks(opened->module, form))
+        return TN_OK;
+    tn_status status = tn_survey_begin(opened->module, form, own ? opened : NULL, &s, error);
     if (status == TN_LIMIT)
         return TN_OK; /* said of the schema */
     if (status == TN_OK)
+        status = tn_survey_ends(s, opened, error);
+    if (status == TN_OK)
         status = tn_survey_trays(s, error);
-    if (status == TN_OK && s->complete)
+    if (status == TN_OK && s->complete && own)
         status = warn(s, error);
+    if (status == TN_OK && s->complete)
+        status = tn_survey_warn_walks(s, opened, error);
     tn_survey_free(s);
     return status;
 }
@@ -226,7 +234,6 @@ tn_status tn_house_survey(tn_opened *opened, tn_error *error)
 {
     tn_status status = TN_OK;
     for (uint32_t i = 0; status == TN_OK && opened->compiled && i < opened->module->FORM_count; i++)
-        if (!(opened->module->FORM_records[i].flags & TN_IMPORTED))
-            status = survey(opened, i, error);
+        status = survey(opened, i, error);
     return status;
 }

@@ -435,7 +435,7 @@ bool tn_paint_covers(const tn_paint *paint)
 
 /* ---- hatches */
 
-#define HATCH_MOST 20000.0 /* lines of a region */
+#define HATCH_MOST 40000.0 /* lines of a region */
 
 typedef struct box {
     double low[2], high[2];
@@ -455,19 +455,19 @@ static box bounds_of(const tn_drawn_path *path)
     return b;
 }
 
-/* Lines that would be too many are farther apart. */
-static double bounded_scale(tn_hatch hatch, double scale, const box *b)
+/* How many lines there are about in a box. */
+static double count_hatch_lines(const tn_hatched *h, const box *b)
 {
     size_t count;
-    const tn_hatch_lines *lines = tn_hatch_made_of(hatch, &count);
-    double across = hypot(b->high[0] - b->low[0], b->high[1] - b->low[1]), drawn = 0;
+    const tn_hatch_lines *lines = tn_hatch_made_of(h->hatch, &count);
+    double wide = b->high[0] - b->low[0], high = b->high[1] - b->low[1], drawn = 0;
     for (size_t i = 0; i < count; i++) {
-        double period = lines[i].dashes[0] + lines[i].dashes[1];
-        drawn += across / lines[i].apart * (period > 0 ? fmax(1, across / scale / period) : 1) / scale;
+        double angle = h->angle - lines[i].angle * WHOLE / 360, u = fabs(tn_cos(angle)), v = fabs(tn_sin(angle)),
+               period = (lines[i].dashes[0] + lines[i].dashes[1]) * h->scale;
+        drawn += (wide * v + high * u) / (lines[i].apart * h->scale) *
+                 (period > 0 ? fmax(1, (wide * u + high * v) / period) : 1);
     }
-    for (; drawn > HATCH_MOST; drawn /= 2)
-        scale *= 2;
-    return scale;
+    return drawn;
 }
 
 /* The lines of one direction across a box, in points of the page. */
@@ -522,7 +522,9 @@ void tn_paint_hatch(tn_paint *paint, tn_hatch hatch, double size)
     if (draws(paint) && path.count) {
         tn_pen pen = pen_of(paint);
         box b = bounds_of(&path);
-        tn_hatched hatched = {hatch, a->x0, a->y0, a->angle, bounded_scale(hatch, size * a->scale, &b)};
+        tn_hatched hatched = {hatch, a->x0, a->y0, a->angle, size * a->scale};
+        while (count_hatch_lines(&hatched, &b) > HATCH_MOST)
+            hatched.scale *= 2; /* too many are farther apart */
         if (paint->device->operations->hatch)
             note(paint, paint->device->operations->hatch(paint->device, &path, &hatched, &pen, &paint->now.ink));
         else

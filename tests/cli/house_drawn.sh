@@ -10,16 +10,34 @@ for house in '#2:18693' '#2:5' '#2:9001'; do
     cp "$scratch/house.svg" "$scratch/one.svg"
 done
 # Small scales leave less room: marks of sections, too, stand apart from dimensions.
-house="14' none room:14' porch:5' | 10' none room:14' porch:5' | 10' lean-to:7' room:14' none ; 1 2 shed(back,4:12) 1 ; living bedroom porch-deck | stair stair porch-deck | bath kitchen bedroom"
-"$TARTAN" house cottage "$house" --scale 192 -o "$scratch/house.svg" 2>"$scratch/said" || fail "no cottage: $(cat "$scratch/said")"
+cottage="14' none room:14' porch:5' | 10' none room:14' porch:5' | 10' lean-to:7' room:14' none ; 1 2 shed(back,4:12) 1 ; living bedroom porch-deck | stair stair porch-deck | bath kitchen bedroom"
+"$TARTAN" house cottage "$cottage" --scale 192 -o "$scratch/house.svg" 2>"$scratch/said" || fail "no cottage: $(cat "$scratch/said")"
 is 'a cottage at 1/16"' "$(python3 -B "$tests/house_drawn.py" "$scratch/house.svg" && echo fine)" fine
 is 'its name is whole' "$(grep -c '>one or two storeys under a gable or a shed<' "$scratch/house.svg")" 1
 is 'heights to 1/8"' "$(grep -c '[0-9]/\(16\|32\|64\)"<' "$scratch/house.svg")" 0
+# In a small room a number is written over furniture rather than into the circle of a tag.
+house="12' single - - empty open:12' open:4' | 12' single - - dense:4' dense:12' empty | 4' single - - dense:4' open:12' empty | 8' single - - dense:4' dense:12' empty | 12' double public great dense:4' open:8' empty ; 1 flat 2 shed(front,3:12) 1 flat shingle ; bedroom bedroom seat | entry stair stair | store passage passage | bath hearth bath | kitchen hall void ; window ; day-bed.left day-bed.left.m window-seat.left coats.right closet.back shower-room.back.m fire.front bath-room.right niche.back gathering.front.m"
+"$TARTAN" house lahave-complete "$house" --view plan:ground -o "$scratch/small.svg" 2>"$scratch/said" || fail "no small rooms: $(cat "$scratch/said")"
+is 'small rooms' "$(python3 -B "$tests/house_drawn.py" "$scratch/small.svg" && echo fine)" fine
+# The floor of a porch is told from the wall beside it along an upright line: only the roof slopes, by 4 in 12.
+"$TARTAN" house cottage "$cottage" --view elevation:left -o "$scratch/left.svg" 2>"$scratch/said" || fail "no elevation: $(cat "$scratch/said")"
+is 'lines that slope' "$(python3 - "$scratch/left.svg" <<'PY'
+import re, sys
+slopes = set()
+for path in re.findall(r'stroke-width=".992"[^>]* d="([^"]*)"', open(sys.argv[1], encoding="utf-8").read()):
+    for command, numbers in re.findall(r"([mlMLhv])([^a-zA-Z]*)", path):
+        pairs = [float(n) for n in re.findall(r"-?(?:\d+\.?\d*|\.\d+)", numbers)]
+        lines = [] if command in "hv" else list(zip(pairs[::2], pairs[1::2]))[1 if command in "mM" else 0:]
+        slopes |= {round(abs(dy / dx), 3) for dx, dy in lines if abs(dx) > 0.01 and abs(dy) > 0.01}
+print(*slopes)
+PY
+)" 0.333
 # Three row houses on three storeys are legible on A1, if views in space are smaller; one has room for large ones.
 is 'views of one row house' "$(grep -c '>axonometric<' "$scratch/one.svg")" 1
 house='2.2m first three room:5m room:4m room:3m | 4m - three room:5m room:4m none | 4m first three room:5m room:4m none | 2.2m - three room:5m room:4m room:3m | 4m first three room:5m room:4m none | 2.2m - three room:5m room:4m room:3m ; 2 flat flat shed(front,1:4) brick'
 "$TARTAN" house row-houses "$house" -o "$scratch/house.svg" 2>"$scratch/said" || fail "no row: $(cat "$scratch/said")"
 is 'three row houses' "$(grep -o '>1:[0-9]*<' "$scratch/house.svg")" '>1:100<'
 is 'their views' "$(grep -c '>axonometric, 1:200<' "$scratch/house.svg")" 1
+is 'one hatch of earth in both sections' "$(grep -o '<pattern[^>]*rotate(0)' "$scratch/house.svg" | grep -o ' width="[^"]*"' | sort -u | wc -l)" 1
 is 'their sheet' "$(python3 -B "$tests/house_drawn.py" "$scratch/house.svg" && echo fine)" fine
 finish

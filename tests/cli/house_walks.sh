@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Walks and ways out: a nanometre decides; cells without a walk meet no bound, and where there are no such cells all do that have a `most`;
-# what is said of single houses; houses on one plan are counted, listed, ranked, varied, put in order and spread by them, those on all plans are not.
+# what is said of single houses; houses on one plan are counted, listed, ranked, varied, put in order and spread by them, those on all plans are not; walks between cells that no house has are warned about.
 # Slow under sanitizers.
 name=house_walks
 . "$(dirname "$0")/golden.bash"
@@ -286,4 +286,43 @@ golden many "tartan best $scratch/many.plan 3 --library all --plan '4m space:5m 
 golden best_none "tartan best $scratch/walked.plan 3 --plan '3m space:4m | 4m space:4m' --library all --least longest"
 golden best_all "tartan best $scratch/walked.plan 3 --library all --least longest"
 golden spread "tartan count $scratch/walked.plan --plan '3m space:4m | 4m space:4m' --library all --by longest"
+
+# A walk between cells that no house has: said where it stands, of cells for which no house is counted, and of no others; of forms of
+# other files, too, but not in those files again.
+cat >two.plan <<'PLAN'
+schema row { width role length = 3m | 4m  zone house role band = space(4m) }
+form f of row {
+  storey ground 2.7m
+  storey upper 2.7m
+  wall 200mm
+  partition 100mm
+  deck 300mm
+  roof 200mm
+  way 800mm
+  function hall at cell(ground)
+  function bedroom at cell(upper)
+  function study at cell(4m)
+  opening door wide 900mm high 2m passage sliding
+  face cell(any) outside = door
+}
+library rows using row { trays 1..2 }
+library all from rows in f { }
+measure never = walk(cell(bedroom, ground), to outside)
+PLAN
+warned=0 silent=0
+for function in hall bedroom study any; do
+    for storey in '' ', ground' ', upper'; do
+        for width in '' ', 3m' ', 4m'; do
+            cell="cell($function$storey$width)"
+            case $cell in 'cell(any, '*) cell="cell(${cell#cell(any, }" ;; esac
+            printf '%s\n' 'use "two.plan"' "measure one = walk($cell, to cell(any))" "measure two = least walk(cell(any), to $cell)" \
+                "measure three = exits($cell) + exits(cell(any))" >asking.plan
+            "$TARTAN" check asking.plan >said 2>&1 || true
+            houses=$("$TARTAN" count two.plan --library all --where "quantity($cell, n >= 1)" 2>/dev/null | awk '/^houses/ {print $2}')
+            is "warnings of $cell" "$(grep -c 'W208' said || true)" "$([ "$houses" = 0 ] && echo 3 || echo 0)"
+            [ "$houses" = 0 ] && warned=$((warned + 1)) || silent=$((silent + 1))
+        done
+    done
+done
+[ $warned -ge 5 ] && [ $silent -ge 10 ] || fail "cells that no house has: $warned, others: $silent"
 finish

@@ -342,6 +342,8 @@ tn_status tn_house_projection_take(const tn_house *house, const tn_solids *solid
         status = cut(house, aspect, &blocks, &axis, &at, error);
     if (status == TN_OK && misses(house, aspect, &blocks))
         status = missed(house, aspect, projection, error);
+    if (status == TN_OK && axis < 0)
+        status = tn_house_part_floors(house, &blocks, error);
     if (status == TN_OK) {
         group_blocks(house, grouping, &blocks);
         status =

@@ -88,7 +88,14 @@ typedef struct tn_grouping {
 tn_status tn_house_projection_take(const tn_house *house, const tn_solids *solids, const tn_aspect *aspect,
                                    const tn_grouping *grouping, tn_house_projection *projection, tn_error *error);
 
-/* ---- facade.c: puts the edges of floors that outside walls stand on, or end below, into the groups of these walls */
+struct tn_blocks;
+
+/* ---- facade.c */
+
+/* Cuts floors across where an outside wall ends and their edge goes on without one, as below a porch. TN_MEMORY. */
+tn_status tn_house_part_floors(const tn_house *house, struct tn_blocks *blocks, tn_error *error);
+
+/* Puts the edges of such floors that outside walls stand on, or end below, into the groups of these walls. */
 void tn_house_face_floors(const tn_house *house, const tn_grouping *grouping, tn_mesh *mesh);
 
 /* ---- cut_layers.c: adds the layers that the plane across an axis cuts */

@@ -566,3 +566,25 @@ tn_status tn_blocks_cut(tn_blocks *blocks, int axis, double at, bool above, tn_e
     *blocks = kept;
     return status;
 }
+
+tn_status tn_blocks_split(tn_blocks *blocks, tn_solid_kind kind, int axis, double at, tn_error *error)
+{
+    tn_blocks parts = {0};
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < blocks->count; i++) {
+        const tn_house_block *b = &blocks->items[i];
+        if (b->kind != kind || b->low[axis] >= at || b->high[axis] <= at) {
+            status = add_block(&parts, b, error);
+            continue;
+        }
+        for (int beyond = 0; status == TN_OK && beyond < 2; beyond++) {
+            tn_block_polygon whole = polygon_of(b), part = upright_part(&whole, axis, at, beyond == 1);
+            status = add_polygon(&parts, b, &part, error);
+        }
+    }
+    free(blocks->items);
+    blocks->items = parts.items;
+    blocks->count = parts.count;
+    blocks->room = parts.room;
+    return status;
+}

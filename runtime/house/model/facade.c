@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "runtime/house/model/aspect.h"
+#include "runtime/house/model/model.h"
 
 #define NEAR_NM 1000.0
 #define UPRIGHT 1e-6
@@ -33,16 +34,61 @@ static bool borders(const tn_house *house, const tn_face *face, const double mid
            ((middle[2] > floor_at - deck && middle[2] < floor_at) || (middle[2] > next - deck && middle[2] < next));
 }
 
+static bool is_outside_wall(const tn_house *house, const tn_face *face)
+{
+    return face->relation != TN_FACE_UNDER && tn_face_is_outer(house, face) && tn_face_thickness(house, face) > 0;
+}
+
 /* The face of the outside wall that covers it, or TN_NO_FACE. */
 static uint32_t wall_of(const tn_house *house, const double middle[3])
 {
+    for (uint32_t i = 0; i < house->face_count; i++)
+        if (is_outside_wall(house, &house->faces[i]) && borders(house, &house->faces[i], middle))
+            return i;
+    return TN_NO_FACE;
+}
+
+static bool is_in_floor(const tn_blocks *blocks, const double at[3])
+{
+    for (size_t i = 0; i < blocks->count; i++) {
+        const tn_house_block *b = &blocks->items[i];
+        bool in = b->kind == TN_SOLID_DECK;
+        for (int k = 0; k < 3; k++)
+            in = in && at[k] > b->low[k] && at[k] < b->high[k];
+        if (in)
+            return true;
+    }
+    return false;
+}
+
+/* Has the floor an edge in the line of a wall, at a place beyond its end? axis: along the wall. */
+static bool goes_on(const tn_blocks *blocks, const double beyond[3], int axis, double half)
+{
+    double sides[2][3];
+    for (int side = 0; side < 2; side++)
+        for (int k = 0; k < 3; k++)
+            sides[side][k] = beyond[k] + (k != 1 - axis ? 0 : (side ? 1 : -1) * (half + NEAR_NM));
+    return is_in_floor(blocks, beyond) && !(is_in_floor(blocks, sides[0]) && is_in_floor(blocks, sides[1]));
+}
+
+tn_status tn_house_part_floors(const tn_house *house, tn_blocks *blocks, tn_error *error)
+{
+    tn_status status = TN_OK;
     for (uint32_t i = 0; i < house->face_count; i++) {
         const tn_face *face = &house->faces[i];
-        if (face->relation != TN_FACE_UNDER && tn_face_is_outer(house, face) && tn_face_thickness(house, face) > 0 &&
-            borders(house, face, middle))
-            return i;
+        int axis = face->at.x0 == face->at.x1 ? 1 : 0;
+        double half = (double)tn_face_thickness(house, face) / 2, deck = (double)house->form->record->deck,
+               from[2] = {(double)face->at.x0, (double)face->at.y0}, to[2] = {(double)face->at.x1, (double)face->at.y1};
+        for (int k = 0; status == TN_OK && is_outside_wall(house, face) && k < 4; k++) {
+            bool high = k % 2;
+            double at = high ? to[axis] + half : from[axis] - half,
+                   beyond[3] = {from[0], from[1], (double)house->form->level[face->storey + k / 2] - deck / 2};
+            beyond[axis] = at + (high ? 2 : -2) * NEAR_NM;
+            if (wall_of(house, beyond) == TN_NO_FACE && goes_on(blocks, beyond, axis, half))
+                status = tn_blocks_split(blocks, TN_SOLID_DECK, axis, at, error);
+        }
     }
-    return TN_NO_FACE;
+    return status;
 }
 
 void tn_house_face_floors(const tn_house *house, const tn_grouping *grouping, tn_mesh *mesh)

@@ -34,7 +34,7 @@ typedef struct tn_naming {
     const tn_taken *taken;
     double lettering;
     tn_rectangle *near; /* owned; has room for all that is taken */
-    size_t near_count;
+    size_t near_count, item_count; /* first what stands there, then doors and tags */
     tn_rectangle cell;
 } tn_naming;
 
@@ -44,12 +44,15 @@ static double overlap(double low, double high, double from, double to)
     return b > a ? b - a : 0;
 }
 
+#define DOOR_WEIGHT 3 /* a name over furniture can be read more easily than one over a tag */
+
 static double covered_of(const tn_naming *n, double x, double y, double half_wide, double half_high)
 {
     double covered = 0;
     for (size_t i = 0; i < n->near_count; i++) {
         const tn_rectangle *r = &n->near[i];
-        covered += overlap(x - half_wide, x + half_wide, (double)r->x0, (double)r->x1) *
+        covered += (i < n->item_count ? 1 : DOOR_WEIGHT) *
+                   overlap(x - half_wide, x + half_wide, (double)r->x0, (double)r->x1) *
                    overlap(y - half_high, y + half_high, (double)r->y0, (double)r->y1);
     }
     return covered;
@@ -69,6 +72,7 @@ static void enter(tn_naming *n, uint32_t cell)
     n->cell = tn_turned(tn_cell_clear(n->house, cell));
     n->near_count = 0;
     gather(n, &n->taken->items);
+    n->item_count = n->near_count;
     gather(n, &n->taken->swings);
 }
 

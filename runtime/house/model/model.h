@@ -55,6 +55,9 @@ tn_status tn_blocks_of_prisms(const tn_solids *solids, tn_blocks *blocks, tn_err
  * the plane of what was cut through. */
 tn_status tn_blocks_cut(tn_blocks *blocks, int axis, double at, bool above, tn_error *error);
 
+/* Makes two of each block of a kind that a plane across x or y cuts. TN_MEMORY. */
+tn_status tn_blocks_split(tn_blocks *blocks, tn_solid_kind kind, int axis, double at, tn_error *error);
+
 /* The boundary of the union, closed and two-manifold, in triangles; nanometres, z up, with the groups of the blocks, of
  * which there are `groups`. It has no names for them. */
 tn_status tn_blocks_mesh(const tn_blocks *blocks, uint32_t groups, tn_mesh *mesh, tn_error *error);
