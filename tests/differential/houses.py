@@ -15,7 +15,7 @@ LENGTHS = {
 WEIGHTS.update({
     "size: NUMBER": plans.MISTAKE, "shape: NAME OPEN arguments CLOSE": 2, "cell_not: CELL OPEN specifier CLOSE": 5, "cell_not: NOT cell_not": .2,
     "cell_not: OPEN cells CLOSE": .2, "cells: cell_ors": .08, "cell_and: cell_ands": .1, "sections: section_ors": 1, "section_and: section_ands": 2, "section_ands: section_ands AND section_not": 2,
-    "material_where: WHERE sections": 2, "tile_part: stretch_word NAME doc reaches drawn": 2, "drawn: %empty": 12, "drawn: SYMBOL OPEN_BRACE symbol_lines CLOSE_BRACE": 2, "symbol_lines: symbol_lines symbol_line": 3,
+    "material_where: WHERE sections": 2, "tile_part: stretch_word NAME doc reaches drawn": 2, "drawn: %empty": 12, "drawn: SYMBOL OPEN_BRACE symbol_lines CLOSE_BRACE": 2,
     "section_not: SECTION OPEN section_items CLOSE": 4, "opening_part: PASSAGE": 8, "opening_part: SILL size": .3, "opening_part: NEAR side size": .2, "opening_parts: opening_parts opening_part": 2,
     "section_not: OPEN sections CLOSE": 1, "section_not: NOT section_not": .5,
     "primary: APART OPEN cells COMMA FROM cells walk_by CLOSE": 4, "primary: TOUCH OPEN cells COMMA cells by_kinds CLOSE": 2,
@@ -308,6 +308,11 @@ def line_end(maker, depth, place):
     return maker.node("line_end: side_word size COMMA side_word size", maker.node("side_word: " + sides[0]), sizes[0], maker.node("side_word: " + sides[1]), sizes[1])
 
 
+def symbol_lines(maker, depth, place):
+    """One or two."""
+    return listed(maker.grammar, "symbol_lines", [maker.make_of("symbol_line: LINE line_end DOTS line_end", 1, place) for _ in range(maker.random.choice([1, 2]))])
+
+
 def thickness(maker, depth, place):
     """Each of the four once: the next that the form being made lacks."""
     done = form_of(place).__dict__.setdefault("thicknesses", [])
@@ -318,7 +323,7 @@ def thickness(maker, depth, place):
     return maker.node("thickness: " + left[0])
 
 
-plans.HOOKS.update({"cells": plain_cells, "shapes": shapes, "section_item": section_item, "form_clauses": form_clauses, "kinds": kinds, "thickness": thickness, "line_end": line_end})
+plans.HOOKS.update({"cells": plain_cells, "shapes": shapes, "section_item": section_item, "form_clauses": form_clauses, "kinds": kinds, "thickness": thickness, "line_end": line_end, "symbol_lines": symbol_lines})
 AVAILABLE["primary: SECTION OPEN section_items CLOSE"] = lambda place: place.form and form_of(place).sections
 AVAILABLE["size: NUMBER"] = lambda place: place.want in ("short", "sill")                    # 0, where a size may be none
 AVAILABLE["form_clause: forbid_word sections"] = AVAILABLE["material_where: WHERE sections"] = lambda place: form_of(place).sections
