@@ -243,7 +243,7 @@ tn_status tn_parquet_table_end(tn_parquet_table *t, tn_error *error)
     tn_thrift_number(&to, 1, TN_THRIFT_I32, 1);
     describe_columns(t, &to);
     tn_thrift_number(&to, 3, TN_THRIFT_I64, (int64_t)t->rows);
-    tn_thrift_list(&to, 4, TN_THRIFT_STRUCT, t->groups);
+    tn_thrift_list(&to, 4, TN_THRIFT_STRUCT, (size_t)t->groups); /* each is in memory */
     tn_buffer_append(&t->body, t->about_groups.data ? t->about_groups.data : "", t->about_groups.size);
     describe_metadata(t, &to);
     tn_thrift_text(&to, 6, "tartan");

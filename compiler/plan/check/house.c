@@ -238,7 +238,11 @@ void tn_check_ask(tn_check *check, tn_ast_expr *expr)
 {
     tn_checked_ask *ask = new_ask(check, expr);
     bool walks = expr->kind == TN_EXPR_WALK || expr->kind == TN_EXPR_EXITS;
-    if (!ask || (walks && !(leads_somewhere(check, expr) & has_ways(check, expr, ask->form))))
+    if (!ask)
+        return;
+    bool good = !walks || leads_somewhere(check, expr);
+    good = (!walks || has_ways(check, expr, ask->form)) && good; /* says what it lacks, too */
+    if (!good)
         return;
     if (expr->kind == TN_EXPR_EXITS)
         tn_form_cell(check, ask->form, (const tn_ast_expr *)expr->parts.first, true, &ask->first);
