@@ -61,6 +61,18 @@ static bool in_extreme(const tn_parse *parse)
     return strncmp(word, "min(", 4) == 0 || strncmp(word, "max(", 4) == 0;
 }
 
+/* Is what stands at hand in the parentheses behind this word? They begin in the same line. */
+static bool in_call(const tn_parse *parse, const char *word)
+{
+    size_t at = parse->last_span.begin, size = strlen(word), closed = 0;
+    for (; at > 0 && parse->text[at - 1] != '\n'; at--) {
+        closed += parse->text[at - 1] == ')';
+        if (parse->text[at - 1] == '(' && closed-- == 0)
+            break;
+    }
+    return at > size && parse->text[at - 1] == '(' && memcmp(parse->text + at - 1 - size, word, size) == 0;
+}
+
 static bool comes_after_number(const tn_parse *parse)
 {
     tn_span span = parse->span_before;
@@ -541,7 +553,12 @@ static const char *likely_fix(const tn_parse *parse, const char *found, const tn
         return "write `{` instead of `=`, and `}` after the last line";
     if (tn_expects(e, "`=`") && tn_expects(e, "`using`"))
         return "a rule is written `rule NAME = ...`; a text that describes it comes after the name";
-    if (strcmp(found, "`)`") == 0 && tn_expects(e, "`,`") && tn_expects(e, "`and`"))
+    bool ends_early = strcmp(found, "`)`") == 0 && tn_expects(e, "`,`") && tn_expects(e, "`and`");
+    if (ends_early && in_call(parse, "walk"))
+        return "say where it leads: `walk(cell(a), to outside)`, `walk(cell(a), to cell(b))`";
+    if (ends_early && in_call(parse, "apart"))
+        return "say what it is apart from: `apart(cell(a), from cell(b))`";
+    if (ends_early)
         return "`every(a, b)` has two parts: each tray that is a is b too";
     if (strcmp(found, "a number") == 0 && tn_expects(e, "a text in quotes"))
         return "a text stands in double quotes";
