@@ -414,7 +414,7 @@ typedef struct collection {
 static tn_status say_cost(pictured *p, size_t used, tn_error *error)
 {
     tn_costs costs = {0};
-    if (!tn_form_has_costs(p->house.form))
+    if (!tn_form_has_prices(p->house.form))
         return TN_OK;
     tn_status status = tn_house_costs(&p->house, &p->solids, &costs, error);
     if (status == TN_OK) {
@@ -429,7 +429,7 @@ static tn_status say_cost(pictured *p, size_t used, tn_error *error)
     return status;
 }
 
-/* The area in the unit of the schema, and the cost where the form has prices. */
+/* The area in the unit of the schema, and the cost if the form has prices. */
 static tn_status describe(pictured *p, tn_error *error)
 {
     double nm2;

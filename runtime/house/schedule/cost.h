@@ -39,6 +39,16 @@ static inline bool tn_form_has_costs(const tn_house_form *form)
     return form->record->material_count > 0;
 }
 
+/* Has one of them a price, so that costs say something? */
+static inline bool tn_form_has_prices(const tn_house_form *form)
+{
+    const tn_form_record *record = form->record;
+    for (uint32_t i = 0; i < record->material_count; i++)
+        if (form->module->MATERIAL_records[record->material_first + i].price > 0)
+            return true;
+    return false;
+}
+
 /* How many numbers of parts a form has: some of them, of later boxes of the same name, are never used. */
 uint32_t tn_form_parts(const tn_house_form *form);
 
