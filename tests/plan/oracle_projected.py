@@ -23,7 +23,7 @@ class Failed(Exception):
 def ask(*words, text=None):
     done = subprocess.run([PROGRAM, *words], capture_output=True, text=True, input=text)
     if done.returncode != 0:
-        raise Failed(f"{' '.join(words)}: {done.returncode} {done.stderr[:600]}")
+        raise Failed(f"{' '.join(words)}: {done.returncode} {done.stderr[:2000]}")
     return done.stdout
 
 
@@ -63,16 +63,19 @@ def check(seed, folder):
 
 
 def main():
-    wrong = some = 0
+    wrong = some = refused = 0
     with tempfile.TemporaryDirectory() as folder:
         for seed in range(FIRST, LAST):
             try:
                 some += check(seed, folder) > 1
             except Failed as failed:
+                if "error[E0410]" in str(failed):   # a remainder that no number has: the reference writes such, files may not
+                    refused += 1
+                    continue
                 print(f"seed {seed}: {failed}")
                 wrong += 1
-    print(f"{LAST - FIRST} cases, {some} of them with plans, {wrong} wrong")
-    sys.exit(wrong > 0 or some == 0)
+    print(f"{LAST - FIRST} cases, {some} of them with plans, {refused} refused, {wrong} wrong")
+    sys.exit(wrong > 0 or some == 0 or 10 * refused > LAST - FIRST)
 
 
 main()
