@@ -81,6 +81,10 @@ def main():
     wide = {tag: float(size.split()[1]) for tag, (_, size) in table.items()}
     leaves = sum(kinds[kind] * (2 if wide[tag] > 1.22 else 1) for tag, (kind, _) in table.items() if tag[0] == "D")
     check(f"{used} symbols for {len(things)} things and {leaves} leaves", used == len(things) + leaves)
+    # Forms have storeys that not each house has.
+    levels = {found[1] for text in said if (found := re.fullmatch(r"(\S+) [+\u00b1-]\d[\d.]*", text))}
+    storeys = {cell["storey"] for cell in house["cells"]}
+    check(f"levels {levels} are those of {storeys}", len(levels - {"top"}) == len(storeys))
     for word in ("A-A", "B-B", "UP ", "areas are net", "\u00b10.00", "1:100"):
         check(f"the sheet says {word}", any(word in text for text in said))
     finish()

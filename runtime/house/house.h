@@ -127,6 +127,15 @@ static inline tn_int128 tn_cell_area(const tn_cell *cell)
     return (tn_int128)(cell->at.x1 - cell->at.x0) * (cell->at.y1 - cell->at.y0);
 }
 
+/* Does the house have anything in the storey? */
+static inline bool tn_house_has_storey(const tn_house *house, uint32_t storey)
+{
+    for (size_t i = 0; i < house->cell_count; i++)
+        if (house->cells[i].storey == storey)
+            return true;
+    return false;
+}
+
 /* Does the section have this value (a SHAPE record)? */
 bool tn_house_chosen(const tn_house *house, int64_t shape);
 

@@ -32,14 +32,6 @@ void tn_house_projection_clear(tn_house_projection *projection)
     *projection = (tn_house_projection){0};
 }
 
-bool tn_house_has_storey(const tn_house *house, uint32_t storey)
-{
-    for (size_t i = 0; i < house->cell_count; i++)
-        if (house->cells[i].storey == storey)
-            return true;
-    return false;
-}
-
 /* Looking level at a side, or straight down with the front below. */
 static tn_camera camera_of(const tn_aspect *aspect)
 {

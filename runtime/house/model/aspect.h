@@ -113,7 +113,4 @@ const tn_cut_layer *tn_joint_layer(const tn_house_projection *projection, const 
 void tn_house_projection_extent(const tn_house_projection *projection, double low[2], double high[2]);
 void tn_house_projection_clear(tn_house_projection *projection);
 
-/* Does the house have anything in the storey? */
-bool tn_house_has_storey(const tn_house *house, uint32_t storey);
-
 #endif

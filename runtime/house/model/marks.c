@@ -195,18 +195,30 @@ static void put_level(tn_marks *marks, const tn_house *house, double u, double v
                   text);
 }
 
+/* Up to the highest in which there is something: forms have storeys that not each house has. */
+static uint32_t count_storeys(const tn_house *house)
+{
+    uint32_t count = house->form->record->storey_count;
+    while (count > 0 && !tn_house_has_storey(house, count - 1))
+        count--;
+    return count;
+}
+
 /* Of each storey its floor and its ceiling, at the right of what is cut. */
 static void put_heights(const tn_house *house, double u, double top, const tn_mark_style *style, tn_marks *marks)
 {
+    uint32_t storeys = count_storeys(house);
     double places[2 * TN_STOREYS_MAX + 2];
     size_t count = 0;
-    for (uint32_t k = 0; k < house->form->record->storey_count; k++) {
+    for (uint32_t k = 0; k < storeys; k++) {
         double floor_at = (double)house->form->level[k], ceiling = floor_at + (double)tn_form_clear(house->form, k);
         if (ceiling > top)
             break;
         places[count++] = floor_at;
         places[count++] = ceiling;
     }
+    if ((double)house->form->level[storeys] < top) /* the roof's deck */
+        places[count++] = (double)house->form->level[storeys];
     places[count++] = rounded(style->us, top);
     tn_marks_chain(marks, house, places, count, u, true, style);
 }
@@ -221,8 +233,9 @@ tn_status tn_marks_levels(const tn_house *house, const double low[2], const doub
     if (cut && marks->count)
         marks->items[marks->count - 1].high = 2 * EARTH * lettering;
     double last = -1e30;
-    for (uint32_t k = 0; k <= form->record->storey_count; k++) {
-        bool top = k == form->record->storey_count;
+    uint32_t storeys = count_storeys(house);
+    for (uint32_t k = 0; k <= storeys; k++) {
+        bool top = k == storeys;
         double v = (double)form->level[k];
         if (v > high[1] || v - last < 1.6 * lettering)
             continue;
