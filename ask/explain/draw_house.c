@@ -149,6 +149,8 @@ static tn_status see_found(void *context, const tn_witness *found, tn_error *err
     drawing *d = context;
     if (found->first == TN_NO_CELL)
         return TN_OK;
+    if (found->term)
+        return light_walked(d, found, error);
     switch (found->opcode) {
     case TN_OP_SOME_ROOM:
     case TN_OP_ROOMS:
@@ -157,13 +159,6 @@ static tn_status see_found(void *context, const tn_witness *found, tn_error *err
         return light_face(d, found->face, error);
     case TN_OP_APART:
         return light_walk(d, found, error);
-    case TN_OP_HOUSE_BELOW:
-    case TN_OP_HOUSE_ZERO:
-    case TN_OP_HOUSE_ABOVE:
-    case TN_OP_HOUSE_NOT_BELOW:
-    case TN_OP_HOUSE_NOT_ZERO:
-    case TN_OP_HOUSE_NOT_ABOVE:
-        return light_walked(d, found, error);
     default:
         return light_cell(d, found->first, TN_LIT_FAULT, error);
     }

@@ -252,6 +252,10 @@ static void walked_text(const tn_house *house, const tn_witness *found, char *te
 
 static void found_text(const tn_house *house, const tn_witness *found, char *text, size_t size)
 {
+    if (found->term) {
+        walked_text(house, found, text, size);
+        return;
+    }
     switch (found->opcode) {
     case TN_OP_SOME_ROOM:
     case TN_OP_ROOMS:
@@ -264,14 +268,6 @@ static void found_text(const tn_house *house, const tn_witness *found, char *tex
         return;
     case TN_OP_APART:
         walk_text(house, found, text, size);
-        return;
-    case TN_OP_HOUSE_BELOW:
-    case TN_OP_HOUSE_ZERO:
-    case TN_OP_HOUSE_ABOVE:
-    case TN_OP_HOUSE_NOT_BELOW:
-    case TN_OP_HOUSE_NOT_ZERO:
-    case TN_OP_HOUSE_NOT_ABOVE:
-        walked_text(house, found, text, size);
         return;
     default:
         tn_cell_text(house, found->first, text, size);

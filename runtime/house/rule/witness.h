@@ -16,7 +16,7 @@
 typedef struct tn_witness {
     uint32_t opcode, offset, first, face;
     const bool *reached; /* [cell] */
-    const tn_house_term_record *term;
+    const tn_house_term_record *term; /* NULL but for HOUSE_BELOW and the like */
     int64_t number;
     const tn_walk_line *lines;
     size_t line_count;
