@@ -47,7 +47,11 @@ void tn_form_unknown(tn_check *check, const tn_checked_form *form, const tn_ast_
                  : i + 1 == count ? " or "
                                   : ", ",
                  names[i]);
-    if (near)
+    if (strncmp(what, "zone", 4) == 0 && strcmp(word->text, "by") == 0)
+        tn_help(check->diagnostics, d,
+                "cells have no faces: rooms with one of a kind are `room(any, by open)`, rooms without one "
+                "`room(any, not by open)`");
+    else if (near)
         tn_suggest(check->diagnostics, d, "%s", near);
     else if (strncmp(what, "zone", 4) == 0 && tn_form_opening_named(form, word->text) != TN_NONE)
         tn_help(check->diagnostics, d,

@@ -117,13 +117,15 @@ static const char *zone_spelling(tn_check *check, const char *fill, const char *
     return text ? text : "";
 }
 
-static void report_twice(tn_check *check, tn_checked_schema *schema, const tn_checked_field *field, tn_span span,
-                         const char *what, tn_span before)
+#define LEAVE_OUT "leave one of the two out"
+
+static tn_diagnostic *report_twice(tn_check *check, tn_checked_schema *schema, const tn_checked_field *field,
+                                   tn_span span, const char *what, tn_span before)
 {
     tn_diagnostic *d = tn_report(check->diagnostics, E_DUPLICATE_VALUE, span, "`%s` has %s already", field->name, what);
     tn_note(check->diagnostics, d, &before, "the first is here");
-    tn_help(check->diagnostics, d, "leave one of the two out");
     schema->broken = true;
+    return d;
 }
 
 static bool has_room(tn_check *check, tn_checked_schema *schema, const tn_checked_field *field, tn_span span)
@@ -154,7 +156,9 @@ static void add_length(tn_check *check, tn_checked_schema *schema, tn_checked_fi
     }
     for (uint32_t i = 0; i < field->value_count; i++)
         if (field->values[i].length == ast->word->value) {
-            report_twice(check, schema, field, ast->word->node.span, "this length", field->values[i].span);
+            tn_help(check->diagnostics,
+                    report_twice(check, schema, field, ast->word->node.span, "this length", field->values[i].span),
+                    LEAVE_OUT);
             return;
         }
     const char *spelling = spell(check, ast->word);
@@ -181,7 +185,8 @@ static void add_choice(tn_check *check, tn_checked_schema *schema, tn_checked_fi
         return;
     const tn_checked_value *before = named(field, ast->word->text);
     if (before)
-        report_twice(check, schema, field, ast->word->node.span, "this value", before->span);
+        tn_help(check->diagnostics,
+                report_twice(check, schema, field, ast->word->node.span, "this value", before->span), LEAVE_OUT);
     else
         add_value(check, schema, field,
                   (tn_checked_value){.name = ast->word->text,
@@ -200,6 +205,20 @@ static void report_bare(tn_check *check, const tn_ast_word *number)
             number->text, number->text);
 }
 
+/* zone hall = room(3m) | room(4m) */
+static void report_fill_twice(tn_check *check, tn_checked_schema *schema, const tn_checked_field *field,
+                              const tn_ast_value *ast, const tn_checked_value *before)
+{
+    tn_diagnostic *d = report_twice(check, schema, field, ast->word->node.span, "this fill", before->span);
+    const tn_ast_word *depth = ast->depths.count > 0 ? (const tn_ast_word *)ast->depths.first : NULL;
+    bool another = before->has_depth && depth && depth->kind == TN_WORD_LENGTH && depth->value != before->length;
+    if (another)
+        tn_help(check->diagnostics, d, "a fill's depths stand together: `%s(%s, %s)`", before->name, before->measure,
+                spell(check, depth));
+    else
+        tn_help(check->diagnostics, d, LEAVE_OUT);
+}
+
 /* A zone's fill, with each of its depths. */
 static void add_fill(tn_check *check, tn_checked_schema *schema, tn_checked_field *field, const tn_ast_value *ast)
 {
@@ -208,7 +227,7 @@ static void add_fill(tn_check *check, tn_checked_schema *schema, tn_checked_fiel
     const tn_checked_value *before = named(field, ast->word->text);
     bool deeper = before && before < field->values + field->older_count && before->has_depth && ast->has_depths;
     if (before && !deeper) {
-        report_twice(check, schema, field, ast->word->node.span, "this fill", before->span);
+        report_fill_twice(check, schema, field, ast, before);
         return;
     }
     tn_checked_value value = {.name = ast->word->text,
@@ -243,7 +262,8 @@ static void add_fill(tn_check *check, tn_checked_schema *schema, tn_checked_fiel
             if (field->values[i].length == depth->value && strcmp(field->values[i].name, value.name) == 0)
                 same = &field->values[i];
         if (same) {
-            report_twice(check, schema, field, depth->node.span, "this depth", same->span);
+            tn_help(check->diagnostics,
+                    report_twice(check, schema, field, depth->node.span, "this depth", same->span), LEAVE_OUT);
             continue;
         }
         value.has_depth = true;
