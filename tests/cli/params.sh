@@ -179,6 +179,22 @@ golden used "tartan count $scratch/main.plan -l mine --set lot=10m --no-effects"
 golden used_tested "tartan test $scratch/main.plan"
 golden used_open "tartan explain $scratch/main.plan -l mine '[3m | 3m]' --set lot=9m"
 
+# What no tray is with the default may be so with another value, and is no mistake.
+cat >"$scratch/widest.plan" <<'END'
+param widest = 5m
+schema row {
+  width = 2m | 3m | 5m
+  kind = a | c
+}
+rule too-wide = tray(c, width > widest) or tray(width > 2 * widest)
+library fitting {
+  trays 1..2
+  prune too-wide
+}
+END
+golden no_tray "tartan check $scratch/widest.plan && tartan count $scratch/widest.plan --no-effects"
+golden some_trays "tartan count $scratch/widest.plan --no-effects --set widest=2m"
+
 # Files of earlier versions have these words as names.
 cat >"$scratch/old.plan" <<'END'
 schema with {

@@ -142,7 +142,8 @@ static tn_ast_item *expand_item(tn_rule_expansion *expansion, const tn_ast_item 
     if (!copy)
         return NULL;
     *copy = (tn_ast_item){.node.span = item->node.span};
-    copy->made = expansion->bindings != NULL;
+    bool met = expansion->check->met_param;
+    expansion->check->met_param = false;
     for (TN_EACH(const tn_ast_alternative, alternative, item->alternatives)) {
         tn_ast_alternative *other = TN_NEW(expansion->check->arena, tn_ast_alternative);
         if (!other)
@@ -152,6 +153,8 @@ static tn_ast_item *expand_item(tn_rule_expansion *expansion, const tn_ast_item 
         if (other->words.first) /* where nothing is left, that was reported */
             copy->alternatives = tn_ast_append(copy->alternatives, other);
     }
+    copy->made = expansion->bindings || expansion->check->met_param;
+    expansion->check->met_param |= met;
     return copy;
 }
 

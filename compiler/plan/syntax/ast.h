@@ -91,7 +91,7 @@ typedef struct tn_ast_alternative {
 typedef struct tn_ast_item {
     tn_ast_node node;
     tn_ast_list alternatives;
-    bool made; /* with bound words: no value need be so */
+    bool made; /* with bound words or params: no value need be so */
 } tn_ast_item;
 
 /* ---- rule expressions */
