@@ -260,7 +260,9 @@ static const char *asked_of_drawings(const tn_house_request *request)
     } all[] = {{"view", request->views.count > 0}, {"cut", request->cut != NULL},
                {"furnish", request->bare},         {"scale", request->has_scale},
                {"azimuth", request->has_azimuth},  {"elevation", request->has_elevation},
-               {"dpi", request->has_dpi},          {"profile", request->profile > 0}};
+               {"dpi", request->has_dpi},          {"profile", request->profile > 0},
+               {"project", request->project},      {"date", request->date},
+               {"revision", request->revision},    {"north", request->has_north}};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         if (all[i].given)
             return all[i].name;
@@ -315,6 +317,10 @@ static tn_house_filed filed_of(const building *b)
                                       .bare = request->bare,
                                       .azimuth = request->has_azimuth ? &request->azimuth : NULL,
                                       .elevation = request->has_elevation ? &request->elevation : NULL},
+                            .says = {.project = request->project,
+                                     .date = request->date,
+                                     .revision = request->revision,
+                                     .north = request->has_north ? &request->north : NULL},
                             .scale = (uint32_t)request->scale,
                             .dpi = (uint32_t)request->dpi,
                             .profile = (tn_profile)request->profile,

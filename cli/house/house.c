@@ -11,12 +11,12 @@
 typedef struct house_settings {
     tn_settings common;
     tn_option_list files, views;
-    const char *form, *library, *cut, *title;
+    const char *form, *library, *cut, *title, *project, *date, *revision;
     int furnish; /* 1: no */
     tn_option_number scale, dpi, max_length, max_states;
     int profile;
     bool measures;
-    tn_option_real azimuth, elevation;
+    tn_option_real azimuth, elevation, north;
 } house_settings;
 
 static const house_settings *settings_of(const tn_job *job)
@@ -160,6 +160,11 @@ static void ask(tn_job *job, const house_files *files)
                                       .has_elevation = s->elevation.given,
                                       .elevation = s->elevation.value,
                                       .title = s->title,
+                                      .project = s->project,
+                                      .date = s->date,
+                                      .revision = s->revision,
+                                      .has_north = s->north.given,
+                                      .north = s->north.value,
                                       .has_dpi = s->dpi.given,
                                       .dpi = s->dpi.value,
                                       .profile = (unsigned)s->profile,
@@ -208,6 +213,11 @@ static const tn_option options[] = {
     REAL("azimuth", 0, "DEGREES", azimuth, "where the axonometric view is seen from, about z (default 60)"),
     REAL("elevation", 0, "DEGREES", elevation, "and how far above the ground (default 30)"),
     TEXT("title", 0, "TEXT", title, "the title of a picture or of an IFC file; by default the number of the house"),
+    TEXT("project", 0, "TEXT", project, "what a drawing is for, in its title block"),
+    TEXT("date", 0, "TEXT", date, "when a drawing is from, in its title block; none unless given"),
+    TEXT("revision", 0, "TEXT", revision, "which state of a drawing this is, in its title block"),
+    REAL("north", 0, "DEGREES", north,
+         "where north is on plans, clockwise from above, which is the back of the house: plans have an arrow"),
     NUMBER("dpi", 0, "N", dpi, 10, 1200, "resolution of a .png (default 150)"),
     CHOICE("profile", 0, "WORD", profile, "auto|iso|us",
            "the names of layers of a .dxf: by ISO 13567 (iso) or by the US National CAD Standard (us); by default the "

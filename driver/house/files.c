@@ -139,7 +139,7 @@ static tn_status write_picture(const tn_house_filed *filed, tn_house_file kind, 
     size_t count;
     tn_status status = tn_house_views(filed->house, &filed->views, aspects, &count, error);
     tn_house_drawing drawing = {
-        .aspects = aspects, .count = count, .title = title_of(filed), .note_count = count > 1, .scale = filed->scale};
+        .aspects = aspects, .count = count, .title = title_of(filed), .says = filed->says, .note_count = count > 1, .scale = filed->scale};
     return status == TN_OK ? draw(filed, &drawing, kind, out, error) : status;
 }
 

@@ -9,6 +9,20 @@ for house in '#2:18693' '#2:5' '#2:9001'; do
     is "house $house" "$(python3 -B "$tests/house_drawn.py" "$scratch/house.svg" "$scratch/house.json" && echo fine)" fine
     cp "$scratch/house.svg" "$scratch/one.svg"
 done
+# What an office says of its drawings stands in the title block, of one view below its title, and not without being said.
+said=(--project 'Ten houses' --date 2026-11-30 --revision B --north 90)
+"$TARTAN" house row-houses '#2:9001' "${said[@]}" -o "$scratch/said.svg" -o "$scratch/said.dxf" || fail 'no title block'
+is 'what is said' "$(grep -o '>\(Ten houses\|date 2026-11-30\|revision B\|N\|[a-z]* elevation, [a-z]*\)<' "$scratch/said.svg" | LC_ALL=C sort | uniq -c | tr -s ' \n' ' ')" \
+    ' 2 >N< 1 >Ten houses< 1 >back elevation, west< 1 >date 2026-11-30< 1 >front elevation, east< 1 >left elevation, north< 1 >revision B< 1 >right elevation, south< '
+is 'the sheet with it' "$(python3 -B "$tests/house_drawn.py" "$scratch/said.svg" && echo fine)" fine
+# In a DXF the title block is on the layout (67 and 1), the arrow a block in model space.
+is 'a DXF says it' "$(tr -d '\r' <"$scratch/said.dxf" | grep -c '^\(Ten houses\|date 2026-11-30\|revision B\)$')" 3
+is 'its arrow' "$(tr -d '\r' <"$scratch/said.dxf" | grep -A12 '^INSERT$' | grep -c '^NORTH$')" 2
+"$TARTAN" house row-houses '#2:9001' --view plan:ground "${said[@]}" -o "$scratch/said.svg" || fail 'no view'
+is 'one view says it' "$(grep -c '>Ten houses, 2026-11-30, revision B<' "$scratch/said.svg")" 1
+is 'nothing is said by itself' "$(grep -c '>\(date.*\|revision.*\|N\)<' "$scratch/one.svg")" 0
+"$TARTAN" house row-houses '#2:9001' --north 90 -o "$scratch/said.json" 2>"$scratch/out" && fail 'north of no drawing'
+is 'north of no drawing' "$(sed -n 1p "$scratch/out")" 'error[E0904]: --north is about drawings, and no file is one'
 # Small scales leave less room: marks of sections, too, stand apart from dimensions.
 cottage="14' none room:14' porch:5' | 10' none room:14' porch:5' | 10' lean-to:7' room:14' none ; 1 2 shed(back,4:12) 1 ; living bedroom porch-deck | stair stair porch-deck | bath kitchen bedroom"
 "$TARTAN" house cottage "$cottage" --scale 192 -o "$scratch/house.svg" 2>"$scratch/said" || fail "no cottage: $(cat "$scratch/said")"

@@ -17,8 +17,7 @@ const uint32_t tn_solid_groups[TN_SOLID_COUNT] = {
     [TN_SOLID_POST] = TN_GROUP_WALL,    [TN_SOLID_DECK] = TN_GROUP_FLOOR,    [TN_SOLID_ROOFDECK] = TN_GROUP_FLOOR,
     [TN_SOLID_ITEM] = TN_GROUP_ITEM,    [TN_SOLID_ROOF] = TN_GROUP_ROOF,     [TN_SOLID_PANE] = TN_GROUP_PANE,
     [TN_SOLID_LEAF] = TN_GROUP_LEAF,    [TN_SOLID_FLIGHT] = TN_GROUP_FLIGHT, [TN_SOLID_GUARD] = TN_GROUP_GUARD,
-    [TN_SOLID_GABLE] = TN_GROUP_WALL,
-    [TN_SOLID_BEAM] = TN_GROUP_FLOOR,
+    [TN_SOLID_GABLE] = TN_GROUP_WALL,   [TN_SOLID_BEAM] = TN_GROUP_FLOOR,
 };
 
 void tn_house_projection_clear(tn_house_projection *projection)
@@ -271,10 +270,11 @@ void tn_house_projection_extent(const tn_house_projection *projection, double lo
     for (size_t i = 0; i < projection->marks.count; i++) {
         const tn_mark *m = &projection->marks.items[i];
         bool span = m->kind == TN_MARK_SPAN;
+        double radius = m->kind == TN_MARK_NORTH ? m->u1 - m->u0 : 0; /* its arrow may point anywhere */
         double wide = tn_mark_width(m->text) * m->high / 2, tall = span ? 1.25 * m->high : m->high / 2,
                u = span ? (m->u0 + m->u1) / 2 : m->u0, v = span ? (m->v0 + m->v1) / 2 : m->v0;
         stretch(low, high, u, v, m->upright ? tall : wide, m->upright ? wide : tall);
-        stretch(low, high, m->u0, m->v0, 0, 0);
+        stretch(low, high, m->u0, m->v0, radius, radius);
         stretch(low, high, m->u1, m->v1, 0, 0);
     }
 }

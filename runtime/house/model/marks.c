@@ -50,6 +50,17 @@ void tn_marks_circle(tn_marks *marks, tn_mark_layer layer, double u, double v, d
     add(marks, (tn_mark){.kind = TN_MARK_CIRCLE, .layer = layer, .u0 = u, .v0 = v, .u1 = u + radius, .v1 = v});
 }
 
+void tn_marks_north(tn_marks *marks, double u, double v, double radius, double degrees)
+{
+    add(marks, (tn_mark){.kind = TN_MARK_NORTH,
+                         .layer = TN_MARK_TAG,
+                         .u0 = u,
+                         .v0 = v,
+                         .u1 = u + radius,
+                         .v1 = v,
+                         .high = fmod(degrees, 360)});
+}
+
 void tn_marks_item(tn_marks *marks, const tn_marked_item *item, double u0, double v0, double u1, double v1)
 {
     add(marks,

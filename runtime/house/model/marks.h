@@ -28,6 +28,7 @@ typedef enum tn_mark_kind {
     TN_MARK_CIRCLE, /* about (u0, v0), through (u1, v1) */
     TN_MARK_SPAN,   /* a dimension from (u0, v0) to (u1, v1), its text so high; or below the line; or empty */
     TN_MARK_LEAF,   /* of a door, hinged at (u0, v0) and open to (u1, v1); shut to its left, or to its right */
+    TN_MARK_NORTH,  /* an arrow about (u0, v0), from above so many degrees (high) clockwise, and its letter: within (u1, v1) */
     TN_MARK_ITEM    /* a symbol, with its corner at (u0, v0) and the opposite one at (u1, v1) */
 } tn_mark_kind;
 
@@ -46,7 +47,7 @@ typedef struct tn_mark {
     tn_mark_kind kind;
     tn_mark_layer layer;
     double u0, v0, u1, v1;
-    double high; /* of what is written; of the ground where it is cut: twice how deep the earth is shown */
+    double high; /* of what is written; of north: its angle; of the ground where it is cut: twice how deep the earth is shown */
     bool upright, below, right;
     tn_marked_item item;
     char text[48];
@@ -70,10 +71,12 @@ typedef struct tn_section_place {
 /* How the marks of a drawing are written. lettering: the size of what is written, whose capitals are 2.5 mm high on
  * paper. us: lengths in feet and inches, areas in square feet, rooms numbered from 101; otherwise in metres, or in
  * millimetres if the form's author writes these, in square metres, and from 0.01. coarse: the scale is too small for
- * tags, and for dimensions of openings. sections: what is shown in plans. */
+ * tags, and for dimensions of openings. sections: what is shown in plans. north: where it is on plans, in degrees from
+ * above, clockwise; or NULL. */
 typedef struct tn_mark_style {
     double lettering;
     bool us, coarse, bare;
+    const double *north;
     const tn_section_place *sections;
     size_t section_count;
 } tn_mark_style;
@@ -97,6 +100,7 @@ void tn_marks_leaf(tn_marks *marks, double u0, double v0, double u1, double v1, 
 void tn_marks_text(tn_marks *marks, tn_mark_layer layer, double u, double v, double high, bool upright,
                    const char *text);
 
+void tn_marks_north(tn_marks *marks, double u, double v, double radius, double degrees);
 void tn_marks_circle(tn_marks *marks, tn_mark_layer layer, double u, double v, double radius);
 
 void tn_marks_item(tn_marks *marks, const tn_marked_item *item, double u0, double v0, double u1, double v1);

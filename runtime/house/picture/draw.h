@@ -5,10 +5,18 @@
 #include "runtime/base/picture.h"
 #include "runtime/house/model/aspect.h"
 
+/* What an office says of a drawing; NULL or empty: nothing. north: where it is on plans, in degrees from above,
+ * clockwise. */
+typedef struct tn_drawing_says {
+    const char *project, *date, *revision;
+    const double *north;
+} tn_drawing_says;
+
 typedef struct tn_house_drawing {
     const tn_aspect *aspects; /* in the order in which they stand on the sheet */
     size_t count;
     const char *title;        /* NULL: none */
+    tn_drawing_says says;
     const char *const *notes; /* lines at the foot */
     size_t note_count;
     uint32_t scale; /* 1:scale; 0: the largest usual one at which everything fits */

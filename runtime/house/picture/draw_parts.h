@@ -9,6 +9,7 @@
 /* Lettering whose capitals are 2.5 mm high, in points: those of DejaVu Sans take this share of its size. */
 #define TN_CAPITALS 0.729
 #define TN_LETTERING (2.5 * 72 / 25.4 / TN_CAPITALS)
+#define TN_NAME_LETTERING (3.5 * 72 / 25.4 / TN_CAPITALS) /* of names of houses */
 
 /* A drawing of a sheet, and where it stands. */
 typedef struct tn_house_drawn {
@@ -21,6 +22,30 @@ typedef struct tn_house_drawn {
     double low[2], high[2]; /* with its marks, nanometres */
     double x, y;            /* of its lower left corner, points */
 } tn_house_drawn;
+
+/* The title block of a sheet. All is borrowed. kinds, measures: what is drawn, and what measures it has. points: a
+ * nanometre of the drawings, which are 1:scale; style: of the lengths below the bar. */
+typedef struct tn_title_block {
+    const char *title; /* or NULL */
+    const tn_drawing_says *says;
+    const char *kinds, *measures;
+    uint32_t scale;
+    double points;
+    bool metric;
+    tn_length_style style;
+} tn_title_block;
+
+/* ---- draw_block.c */
+
+#define TN_BLOCK_WIDTH 320.0 /* in points */
+double tn_title_block_height(const tn_title_block *block);
+void tn_title_block_paint(const tn_title_block *block, tn_paint *paint, double x, double y);
+
+/* The scale, and a bar of four metres, or of 16 feet, in black and white, that ends there. */
+void tn_scale_bar_paint(const tn_title_block *block, tn_paint *paint, double right, double y);
+
+/* The project, the date and the revision in one line. */
+void tn_drawing_says_write(const tn_drawing_says *says, char *text, size_t size);
 
 /* Takes a view of a house, without marks. Clear *drawn in any case. */
 tn_status tn_house_view_take(const tn_solids *solids, const tn_aspect *aspect, const tn_house *house,

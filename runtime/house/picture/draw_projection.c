@@ -242,6 +242,46 @@ static void paint_circle(const tn_drawing_frame *f, const tn_mark *m)
     tn_paint_stroke(f->paint);
 }
 
+#define NORTH_CIRCLE 0.6 /* shares of an arrow to the north with its letter */
+#define NORTH_LETTER 0.82
+#define NORTH_CAPITAL 0.36
+
+/* In a circle: half of it black. */
+static void draw_north(tn_paint *paint, const void *of)
+{
+    double radius = *(const double *)of;
+    tn_paint_layer(paint, TN_LAYER_SYMBOL);
+    tn_paint_weight(paint, TN_WEIGHT_THIN);
+    tn_paint_arc(paint, 0, 0, radius, 0, 2 * M_PI);
+    tn_paint_close_path(paint);
+    tn_paint_stroke(paint);
+    for (int side = -1; side <= 1; side += 2) {
+        tn_paint_move_to(paint, 0, -radius);
+        tn_paint_line_to(paint, side * 0.5 * radius, 0.75 * radius);
+        tn_paint_line_to(paint, 0, 0.4 * radius);
+        tn_paint_close_path(paint);
+        if (side < 0)
+            tn_paint_fill_keep(paint);
+        tn_paint_stroke(paint);
+    }
+}
+
+static void paint_north(const tn_drawing_frame *f, const tn_mark *m)
+{
+    double whole = (m->u1 - m->u0) * f->scale, radius = NORTH_CIRCLE * whole, angle = m->high * (M_PI / 180),
+           x = place_u(f, m->u0), y = place_v(f, m->v0);
+    const tn_drawn_symbol arrow = {"NORTH", draw_north, &radius};
+    tn_paint_symbol(f->paint, &arrow, x, y, angle, false);
+    tn_paint_save(f->paint);
+    tn_paint_translate(f->paint, x, y);
+    tn_paint_rotate(f->paint, angle);
+    tn_paint_translate(f->paint, 0, -NORTH_LETTER * whole);
+    tn_paint_rotate(f->paint, -angle);
+    tn_paint_face(f->paint, NORTH_CAPITAL * whole, false);
+    tn_type_line(f->paint, 0, 0.35 * NORTH_CAPITAL * whole, TN_ALIGN_CENTRE, "N");
+    tn_paint_restore(f->paint);
+}
+
 static void paint_text(const tn_drawing_frame *f, const tn_mark *m)
 {
     double high = m->high * f->scale, half = tn_mark_width(m->text) * high / 2;
@@ -291,6 +331,9 @@ static void paint_shape(const tn_drawing_frame *f, const tn_mark *m)
         break;
     case TN_MARK_SPAN:
         paint_span(f, m);
+        break;
+    case TN_MARK_NORTH:
+        paint_north(f, m);
         break;
     case TN_MARK_ITEM:
         tn_paint_layer(f->paint, tn_symbol_is_fixture(m->item.symbol) ? TN_LAYER_FIXTURE : TN_LAYER_FURNITURE);

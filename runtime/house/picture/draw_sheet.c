@@ -18,11 +18,9 @@
 #define LEGIBLE_METRIC 100u /* scales at which a plan of a house can be read: 1:100, 1/8" */
 #define LEGIBLE_FEET 96u
 #define TN_SECTIONS_MOST 26 /* they have letters */
-#define BLOCK_WIDTH 320.0   /* of the title block, in points */
-#define BLOCK_HEIGHT 92.0
 #define FOOT_GAP 12.0
-#define NAME_SIZE 13.0
-#define SMALLER_IN_SPACE 2u /* nothing is measured in views in space: where room is short, their scale is so much smaller */
+#define SMALLER_IN_SPACE                                                                                               \
+    2u /* nothing is measured in views in space: where room is short, their scale is so much smaller */
 #define VIEW_WIDTH 820.0 /* the most that one drawing takes, in points */
 #define VIEW_HEIGHT 620.0
 
@@ -39,6 +37,8 @@ typedef struct sheet {
     double width, height; /* of the page */
     double foot;          /* room for tables, notes, the title block or the scale bar */
     tn_sheet_tables tables;
+    tn_title_block block;
+    char kinds[128], measures[64], said[256];
     size_t deep;  /* rows of the tables */
     double spare; /* height of the page that nothing needs */
 } sheet;
@@ -88,6 +88,41 @@ static void clear(sheet *s)
     tn_sheet_tables_clear(&s->tables);
 }
 
+/* ---- what is said of the drawings */
+
+/* What those of a sheet are. */
+static void name_kinds(sheet *s)
+{
+    static const char *const kinds[] = {[TN_ASPECT_PLAN] = "plans",
+                                        [TN_ASPECT_SECTION_X] = "sections",
+                                        [TN_ASPECT_SECTION_Y] = "sections",
+                                        [TN_ASPECT_ELEVATION] = "elevations",
+                                        [TN_ASPECT_AXONOMETRIC] = "views"};
+    size_t used = 0;
+    for (size_t i = 0; i < s->drawing->count; i++) {
+        const char *kind = kinds[s->drawing->aspects[i].kind];
+        if (!strstr(s->kinds, kind))
+            used += (size_t)snprintf(s->kinds + used, sizeof s->kinds - used, "%s%s", used ? ", " : "", kind);
+    }
+}
+
+static void say_all(sheet *s)
+{
+    tn_length_style style = tn_house_length_style(s->house);
+    name_kinds(s);
+    snprintf(s->measures, sizeof s->measures, "areas are net, dimensions in %s",
+             s->style.us                     ? "feet and inches"
+             : style == TN_STYLE_MILLIMETRES ? "millimetres"
+                                             : "metres");
+    tn_drawing_says_write(&s->drawing->says, s->said, sizeof s->said);
+    s->block = (tn_title_block){.title = s->drawing->title,
+                                .says = &s->drawing->says,
+                                .kinds = s->kinds,
+                                .measures = s->measures,
+                                .metric = s->metric,
+                                .style = style};
+}
+
 /* ---- laying out */
 
 /* A nanometre of a drawing, in points. */
@@ -130,6 +165,8 @@ static tn_status mark_all(sheet *s, uint32_t scale, tn_error *error)
     tn_status status = TN_OK;
     s->scale = scale;
     s->points = TN_POINTS_PER_NM / scale;
+    s->block.scale = scale;
+    s->block.points = s->points;
     s->style.lettering = TN_LETTERING / s->points;
     s->style.coarse = scale > (s->metric ? LEGIBLE_METRIC : LEGIBLE_FEET);
     for (size_t i = 0; status == TN_OK && i < s->drawing->count; i++) {
@@ -155,7 +192,7 @@ static size_t measure_row(const sheet *s, size_t first, double most, double *acr
     return count;
 }
 
-/* One drawing has its title above it, a sheet a title block. */
+/* One drawing has its title and what is said of it above it, a sheet a title block. */
 static bool is_sheet(const sheet *s)
 {
     return s->drawing->count > 1;
@@ -163,7 +200,9 @@ static bool is_sheet(const sheet *s)
 
 static double top_of(const sheet *s)
 {
-    return MARGIN + (s->drawing->title && !is_sheet(s) ? HEADING : 0);
+    if (is_sheet(s))
+        return MARGIN;
+    return MARGIN + (s->drawing->title ? HEADING : 0) + (s->said[0] ? NOTE_LEADING : 0);
 }
 
 /* Is x from the right to the left in it, and is it the only drawing in its row of the sheet? */
@@ -220,9 +259,10 @@ static void set_rows(sheet *s, double room, double wrap, double *most, double *d
 /* The foot of a page so wide: tables beside the title block, below both the notes. */
 static void set_foot(sheet *s, double width)
 {
-    s->deep = tn_sheet_tables_deep(&s->tables, width - 2 * MARGIN - BLOCK_WIDTH - FOOT_GAP,
-                                   (size_t)(BLOCK_HEIGHT / TN_TABLE_LEADING));
-    s->foot = 2 * FOOT_GAP + fmax(BLOCK_HEIGHT, (double)s->deep * TN_TABLE_LEADING) +
+    double high = tn_title_block_height(&s->block);
+    s->deep = tn_sheet_tables_deep(&s->tables, width - 2 * MARGIN - TN_BLOCK_WIDTH - FOOT_GAP,
+                                   (size_t)(high / TN_TABLE_LEADING));
+    s->foot = 2 * FOOT_GAP + fmax(high, (double)s->deep * TN_TABLE_LEADING) +
               NOTE_LEADING * NOTE_LINES * (double)s->drawing->note_count;
 }
 
@@ -356,6 +396,18 @@ static tn_status choose_page(sheet *s, tn_error *error)
 
 /* ---- painting */
 
+/* Where a side of the house looks if it is known where north is. On plans the front is below and the left at the right.
+ */
+static const char *compass_of(tn_house_side side, double north)
+{
+    static const char *const points[] = {"north", "north-east", "east", "south-east",
+                                         "south", "south-west", "west", "north-west"};
+    static const double sides[] = {
+        [TN_HOUSE_BACK] = 0, [TN_HOUSE_LEFT] = 90, [TN_HOUSE_FRONT] = 180, [TN_HOUSE_RIGHT] = 270};
+    double turn = fmod(sides[side] - north, 360);
+    return points[(size_t)floor((turn + 360 + 22.5) / 45) % 8];
+}
+
 /* Its title, with the letter of a section, and the scale if it is not that of the sheet. *section: how many were drawn
  * so far. */
 static void paint_caption(const sheet *s, tn_paint *paint, size_t i, size_t *section)
@@ -368,6 +420,8 @@ static void paint_caption(const sheet *s, tn_paint *paint, size_t i, size_t *sec
         char letter = s->sections[(*section)++].letter;
         snprintf(caption, sizeof caption, "%c-%c  %s", letter, letter, title);
     }
+    if (d->projection.aspect.kind == TN_ASPECT_ELEVATION && s->style.north)
+        snprintf(caption, sizeof caption, "%s, %s", title, compass_of(d->projection.aspect.side, *s->style.north));
     if (d->projection.aspect.kind == TN_ASPECT_AXONOMETRIC && s->in_space > 1) {
         tn_scale_write(s->scale * s->in_space, s->metric, scale, sizeof scale);
         snprintf(caption, sizeof caption, "%s, %s", title, scale);
@@ -393,36 +447,12 @@ static void paint_drawing(const sheet *s, const tn_canvas *canvas, size_t i, siz
     tn_paint_view_end(paint);
 }
 
-/* A bar of four feet or metres, in black and white, that ends there. */
-static void paint_bar(const sheet *s, tn_paint *paint, double right, double y)
-{
-    char text[64];
-    int64_t unit = s->metric ? INT64_C(1000000000) : TN_FOOT_NM * 4;
-    double step = (double)unit * s->points, x = right - 4 * step;
-    tn_scale_write(s->scale, s->metric, text, sizeof text);
-    tn_paint_face(paint, TN_LETTERING, false);
-    tn_paint_colour(paint, 0, 0, 0);
-    tn_type_line(paint, x - 8, y + 4, TN_ALIGN_RIGHT, text);
-    tn_paint_weight(paint, TN_WEIGHT_HATCH);
-    for (int i = 0; i <= 4; i++) {
-        tn_length_write_style(unit * i, tn_house_length_style(s->house), text, sizeof text);
-        if (i % 2 == 0)
-            tn_type_line(paint, x + step * i, y + 4 + NOTE_LEADING, TN_ALIGN_CENTRE, text);
-        if (i == 4)
-            break;
-        tn_paint_rectangle(paint, x + step * i, y, step, 4);
-        if (i % 2 == 0)
-            tn_paint_fill_keep(paint);
-        tn_paint_stroke(paint);
-    }
-}
-
 static void paint_foot(const sheet *s, tn_paint *paint)
 {
     double y = s->height - MARGIN - s->foot + 14,
            bar = (double)(s->metric ? 1000000000 : TN_FOOT_NM * 4) * s->points * 4;
     double room = s->width - 2 * MARGIN - bar - 90;
-    paint_bar(s, paint, s->width - MARGIN, y);
+    tn_scale_bar_paint(&s->block, paint, s->width - MARGIN, y);
     if (s->drawing->count == 1 && s->drawing->aspects[0].kind == TN_ASPECT_AXONOMETRIC && room < 120)
         room = 120;
     tn_paint_face(paint, TN_LETTERING, false);
@@ -432,66 +462,11 @@ static void paint_foot(const sheet *s, tn_paint *paint)
         y += NOTE_LEADING * tn_type_paragraph(paint, MARGIN, y, room, NOTE_LEADING, NOTE_LINES, s->drawing->notes[i]);
 }
 
-/* What the drawings of a sheet are, and how they are measured. */
-static void paint_particulars(const sheet *s, tn_paint *paint, double x, double y)
-{
-    static const char *const kinds[] = {[TN_ASPECT_PLAN] = "plans",
-                                        [TN_ASPECT_SECTION_X] = "sections",
-                                        [TN_ASPECT_SECTION_Y] = "sections",
-                                        [TN_ASPECT_ELEVATION] = "elevations",
-                                        [TN_ASPECT_AXONOMETRIC] = "views"};
-    char text[128] = "";
-    size_t used = 0;
-    for (size_t i = 0; i < s->drawing->count; i++) {
-        const char *kind = kinds[s->drawing->aspects[i].kind];
-        if (!strstr(text, kind))
-            used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", used ? ", " : "", kind);
-    }
-    tn_paint_face(paint, TN_LETTERING, false);
-    tn_type_fit(paint, x, y, TN_ALIGN_LEFT, BLOCK_WIDTH - 2 * FOOT_GAP, text);
-    snprintf(text, sizeof text, "areas are net, dimensions in %s",
-             s->style.us                                               ? "feet and inches"
-             : tn_house_length_style(s->house) == TN_STYLE_MILLIMETRES ? "millimetres"
-                                                                       : "metres");
-    tn_type_fit(paint, x, y + NOTE_LEADING + 2, TN_ALIGN_LEFT, BLOCK_WIDTH - 2 * FOOT_GAP, text);
-}
-
-/* What the house is called, smaller if it is long. */
-static void paint_name(tn_paint *paint, double x, double baseline, double room, const char *name)
-{
-    tn_paint_face(paint, NAME_SIZE, true);
-    double across = tn_type_width(paint, name);
-    if (across > room)
-        tn_paint_face(paint, fmax(0.999 * NAME_SIZE * room / across, TN_LETTERING), true);
-    tn_type_fit(paint, x, baseline, TN_ALIGN_LEFT, room, name);
-}
-
-/* At the lower right of a sheet: the house, what is drawn, and the scale. */
-static void paint_block(const sheet *s, tn_paint *paint, double x, double y)
-{
-    tn_paint_layer(paint, TN_LAYER_TITLE);
-    tn_paint_colour(paint, 0, 0, 0);
-    tn_paint_weight(paint, TN_WEIGHT_CUT);
-    tn_paint_new_path(paint);
-    tn_paint_rectangle(paint, x, y, BLOCK_WIDTH, BLOCK_HEIGHT);
-    tn_paint_stroke(paint);
-    tn_paint_weight(paint, TN_WEIGHT_THIN);
-    tn_paint_move_to(paint, x, y + 24);
-    tn_paint_line_to(paint, x + BLOCK_WIDTH, y + 24);
-    tn_paint_move_to(paint, x, y + 58);
-    tn_paint_line_to(paint, x + BLOCK_WIDTH, y + 58);
-    tn_paint_stroke(paint);
-    if (s->drawing->title)
-        paint_name(paint, x + FOOT_GAP, y + 17, BLOCK_WIDTH - 2 * FOOT_GAP, s->drawing->title);
-    paint_particulars(s, paint, x + FOOT_GAP, y + 37);
-    paint_bar(s, paint, x + BLOCK_WIDTH - 2 * FOOT_GAP, y + 66);
-}
-
 static void paint_sheet_foot(const sheet *s, tn_paint *paint)
 {
     double y = s->height - MARGIN - s->foot + FOOT_GAP, notes = y + s->foot - FOOT_GAP;
     tn_sheet_tables_paint(&s->tables, paint, MARGIN, y, s->deep, TN_LETTERING);
-    paint_block(s, paint, s->width - MARGIN - BLOCK_WIDTH, y);
+    tn_title_block_paint(&s->block, paint, s->width - MARGIN - TN_BLOCK_WIDTH, y);
     notes -= NOTE_LEADING * (NOTE_LINES * (double)s->drawing->note_count - 1);
     tn_paint_layer(paint, TN_LAYER_TEXT);
     tn_paint_face(paint, TN_LETTERING, false);
@@ -506,8 +481,13 @@ static void paint_all(const sheet *s, const tn_canvas *canvas)
     size_t section = 0;
     tn_paint_layer(paint, TN_LAYER_TITLE);
     if (s->drawing->title && !is_sheet(s)) {
-        tn_paint_face(paint, 13, true);
+        tn_paint_face(paint, TN_NAME_LETTERING, true);
         tn_type_fit(paint, MARGIN, MARGIN + 6, TN_ALIGN_LEFT, s->width - 2 * MARGIN, s->drawing->title);
+    }
+    if (s->said[0] && !is_sheet(s)) {
+        tn_paint_face(paint, TN_LETTERING, false);
+        tn_type_fit(paint, MARGIN, MARGIN + 6 + (s->drawing->title ? HEADING - 6 : 0), TN_ALIGN_LEFT,
+                    s->width - 2 * MARGIN, s->said);
     }
     for (size_t i = 0; i < s->drawing->count && !tn_canvas_stopped(canvas); i++)
         paint_drawing(s, canvas, i, &section);
@@ -527,7 +507,9 @@ tn_status tn_house_draw(const tn_house *house, const tn_solids *solids, const tn
                .metric = tn_house_length_style(house) != TN_STYLE_FEET,
                .foot = 30 + NOTE_LEADING * NOTE_LINES * (double)drawing->note_count};
     s.style.us = !s.metric;
+    s.style.north = drawing->says.north;
     letter_sections(&s);
+    say_all(&s);
     tn_canvas *canvas = NULL;
     tn_status status = s.drawn ? tn_sheet_tables_make(house, &s.style, &s.tables, error) : tn_fail_memory(error);
     for (size_t i = 0; status == TN_OK && i < drawing->count; i++) {
