@@ -126,8 +126,11 @@ static const tn_ast_word *schema_seen(const tn_imports *imports, size_t from)
     const tn_ast_word *found = NULL;
     for (size_t u = 0; u < imports->count; u++)
         for (TN_EACH(const tn_ast_top, item, tree_of(imports, u)->items))
-            if (item->kind == TN_ITEM_SCHEMA && tn_import_reaches(imports, from, u))
+            if (item->kind == TN_ITEM_SCHEMA && tn_import_reaches(imports, from, u)) {
+                if (found)
+                    return NULL;
                 found = name_of(item);
+            }
     return found;
 }
 
