@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """Reads drawings that are written as DXF, by ezdxf where that is installed (status 77: it is not).
 
-drawing_read.py FILE.dxf [TYPE=COUNT]...: the audit finds nothing, there are at least so many entities of these types in model space, all
-of them lie within the extents that the header says, every layer that is used is in the table with a weight, every hatch has a boundary,
-every dimension measures what its block shows, every insert has its block, and what windows of the layout show is there."""
+drawing_read.py FILE.dxf [TYPE[@LAYER]=COUNT]...: the audit finds nothing, there are at least so many entities of these types (on that
+layer) in model space, all of them lie within the extents that the header says, every layer that is used is
+in the table with a weight, every hatch has a boundary, every dimension measures what its block shows, every insert has its block, and what
+windows of the layout show is there. With the word `meant`, nothing in model space or on a layout is on layer 0; with WALLS:ZONES, the lines of the one
+layer are the contours of those of the other."""
 import sys
 
 try:
@@ -67,16 +69,47 @@ def check_windows(document):
             check("a window shows something", inside or not document.modelspace().query("LINE"))
 
 
+def check_layers(document):
+    for name in document.layout_names():
+        stray = Counter(entity.dxftype() for entity in document.layout(name) if entity.dxf.layer == "0")
+        check(f"nothing of {name} is on layer 0, but {dict(stray)}", not stray)
+
+
+def area_of(corners):
+    return sum(x0 * y1 - x1 * y0 for (x0, y0), (x1, y1) in zip(corners, corners[1:] + corners[:1])) / 2
+
+
+def check_contours(model, walls, zones):
+    """Contours hold exactly the zones, and have a corner only where they turn."""
+    within = {layer: [[tuple(at) for at in line.get_points("xy")] for line in model.query("LWPOLYLINE")
+                      if line.dxf.layer == layer and line.closed] for layer in (walls, zones)}
+    held, parts = (sum(abs(area_of(corners)) for corners in within[layer]) for layer in (walls, zones))
+    check(f"contours hold {held} of {parts}", parts > 0 and abs(held - parts) < 1e-6 * parts)
+    for corners in within[walls]:
+        for before, at, after in zip(corners[-1:] + corners, corners, corners[1:] + corners[:1]):
+            check(f"a contour turns at {at}", abs(area_of([before, at, after])) > 1)
+
+
+def check_count(model, words):
+    what, least = words.split("=")
+    kind, _, layer = what.partition("@")
+    counted = sum(entity.dxf.layer == layer or not layer for entity in model.query(kind))
+    check(f"{counted} of {what}, not {least}", counted >= int(least))
+
+
 def read(path, wanted):
     document = ezdxf.readfile(path)
     auditor = document.audit()
     check(f"the audit finds {[error.message for error in auditor.errors + auditor.fixes][:3]}", not auditor.errors and not auditor.fixes)
     model = document.modelspace()
     check("units", document.header["$INSUNITS"] in (1, 4) and document.header["$MEASUREMENT"] == (document.header["$INSUNITS"] == 4))
-    counted = Counter(entity.dxftype() for entity in model)
     for words in wanted:
-        kind, least = words.split("=")
-        check(f"{counted[kind]} of {kind}, not {least}", counted[kind] >= int(least))
+        if words == "meant":
+            check_layers(document)
+        elif ":" in words:
+            check_contours(model, *words.split(":"))
+        else:
+            check_count(model, words)
     for entity in model:
         check_entity(document, entity)
     check_extents(document, model)

@@ -470,48 +470,88 @@ static double count_hatch_lines(const tn_hatched *h, const box *b)
     return drawn;
 }
 
-/* The lines of one direction across a box, in points of the page. */
-static void trace_hatch_lines(tn_paint *paint, const tn_hatched *h, const tn_hatch_lines *lines, const box *b)
+/* Leaves of a stretch of a line through (u, v) what is within a box; false: nothing. */
+static bool trim(const box *b, const double through[2], const double along[2], double *from, double *to)
+{
+    for (int k = 0; k < 2; k++) {
+        if (fabs(along[k]) < 1e-9) {
+            if (through[k] < b->low[k] || through[k] > b->high[k])
+                return false;
+            continue;
+        }
+        double low = (b->low[k] - through[k]) / along[k], high = (b->high[k] - through[k]) / along[k];
+        *from = fmax(*from, fmin(low, high));
+        *to = fmin(*to, fmax(low, high));
+    }
+    return *from < *to;
+}
+
+/* Draws a line across a box, with its dashes counted from `shift` along it. */
+static void draw_hatch_line(tn_paint *paint, const tn_hatched *h, const tn_hatch_lines *lines, const box *b,
+                            const double through[2], const double along[2], double shift)
+{
+    double from = -INFINITY, to = INFINITY, period = (lines->dashes[0] + lines->dashes[1]) * h->scale;
+    if (!trim(b, through, along, &from, &to))
+        return;
+    tn_paint_move_to(paint, through[0] + from * along[0], through[1] + from * along[1]);
+    tn_paint_line_to(paint, through[0] + to * along[0], through[1] + to * along[1]);
+    if (!(period > 0))
+        return;
+    const double dashes[] = {lines->dashes[0] * h->scale, lines->dashes[1] * h->scale};
+    tn_paint_dash(paint, dashes, 2, from - shift - floor((from - shift) / period) * period);
+    tn_paint_stroke(paint);
+}
+
+/* Draws the lines of one direction across a box, in points of the page. */
+static void draw_hatch_lines(tn_paint *paint, const tn_hatched *h, const tn_hatch_lines *lines, const box *b)
 {
     double angle = h->angle - lines->angle * WHOLE / 360, along[2] = {tn_cos(angle), tn_sin(angle)},
            aside[2] = {along[1], -along[0]}, turn[2] = {tn_cos(h->angle), tn_sin(h->angle)},
            x = h->x + h->scale * (turn[0] * lines->x - turn[1] * lines->y),
-           y = h->y + h->scale * (turn[1] * lines->x + turn[0] * lines->y), low[2] = {INFINITY, INFINITY},
-           high[2] = {-INFINITY, -INFINITY};
+           y = h->y + h->scale * (turn[1] * lines->x + turn[0] * lines->y), low = INFINITY, high = -INFINITY,
+           apart = lines->apart * h->scale;
     for (int k = 0; k < 4; k++) {
         double dx = (k % 2 ? b->high[0] : b->low[0]) - x, dy = (k / 2 ? b->high[1] : b->low[1]) - y;
-        const double at[2] = {dx * along[0] + dy * along[1], dx * aside[0] + dy * aside[1]};
-        for (int i = 0; i < 2; i++) {
-            low[i] = fmin(low[i], at[i]);
-            high[i] = fmax(high[i], at[i]);
-        }
+        low = fmin(low, dx * aside[0] + dy * aside[1]);
+        high = fmax(high, dx * aside[0] + dy * aside[1]);
     }
-    double apart = lines->apart * h->scale, period = (lines->dashes[0] + lines->dashes[1]) * h->scale;
-    for (double k = ceil(low[1] / apart); k * apart <= high[1]; k++) {
-        double from = low[0], shift = k * lines->shift * h->scale, step = period > 0 ? period : high[0] - low[0] + 1,
-               dash = period > 0 ? lines->dashes[0] * h->scale : step;
-        if (period > 0)
-            from = shift + floor((from - shift) / period) * period;
-        for (; from < high[0]; from += step) {
-            double to = fmin(from + dash, high[0]), u = x + k * apart * aside[0], v = y + k * apart * aside[1];
-            tn_paint_move_to(paint, u + from * along[0], v + from * along[1]);
-            tn_paint_line_to(paint, u + to * along[0], v + to * along[1]);
-        }
-    }
+    for (double k = ceil(low / apart); k * apart <= high; k++)
+        draw_hatch_line(paint, h, lines, b, (const double[2]){x + k * apart * aside[0], y + k * apart * aside[1]},
+                        along, k * lines->shift * h->scale);
+    tn_paint_stroke(paint);
 }
 
-/* By lines that are clipped. */
+/* Is the path that box and nothing else? */
+static bool is_box(const tn_drawn_path *path)
+{
+    const tn_drawn_step *steps = path->steps;
+    bool holds = path->count == 5 && steps[4].kind == TN_DRAWN_CLOSE;
+    for (size_t i = 0; holds && i < 4; i++) {
+        const tn_drawn_step *next = &steps[(i + 1) % 4];
+        holds = steps[i].kind == (i == 0 ? TN_DRAWN_MOVE : TN_DRAWN_LINE) &&
+                (steps[i].x == next->x) != (steps[i].y == next->y) &&
+                (steps[i].x == next->x) == (steps[(i + 2) % 4].x == steps[(i + 3) % 4].x);
+    }
+    return holds;
+}
+
+/* By lines that are clipped; those across a box end there. */
 static void draw_hatch(tn_paint *paint, const tn_hatched *hatched, const box *b)
 {
     size_t count;
     const tn_hatch_lines *lines = tn_hatch_made_of(hatched->hatch, &count);
+    const tn_drawn_path path = path_of(paint);
     tn_paint_save(paint);
-    tn_paint_clip(paint);
+    if (is_box(&path))
+        tn_paint_new_path(paint);
+    else
+        tn_paint_clip(paint);
     paint->now.pen = pen_of(paint);
     paint->now.axes = straight(1);
-    for (size_t i = 0; i < count; i++)
-        trace_hatch_lines(paint, hatched, &lines[i], b);
-    tn_paint_stroke(paint);
+    for (size_t i = 0; i < count; i++) {
+        tn_paint_dash(paint, NULL, 0, 0);
+        draw_hatch_lines(paint, hatched, &lines[i], b);
+    }
     tn_paint_restore(paint);
 }
 

@@ -17,11 +17,14 @@ read_back "$scratch/meanings.dxf" INSERT=17 HATCH=7 DIMENSION=5 LWPOLYLINE=8
 "$TARTAN" draw lahave-houses --sample 6 --seed 7 -o "$scratch/feet.dxf" || fail 'feet.dxf is not drawn'
 "$TARTAN" draw lahave-houses --sample 6 --seed 7 --profile iso -o "$scratch/iso.dxf" || fail 'iso.dxf is not drawn'
 "$TARTAN" draw "$files/sheds.plan" --library sheds --sample 5 --seed 1 -o "$scratch/table.dxf" || fail 'table.dxf is not drawn'
-read_back "$scratch/feet.dxf" LWPOLYLINE=50
-read_back "$scratch/iso.dxf" LWPOLYLINE=50
-read_back "$scratch/table.dxf" TEXT=49
+"$TARTAN" draw "$files/stalls.plan" --sample 6 --seed 1 -o "$scratch/tones.dxf" || fail 'tones.dxf is not drawn'
+# Every tray is measured, and every plan; contours and zones are closed lines, fills hatches, marks blocks.
+read_back "$scratch/feet.dxf" meant LWPOLYLINE@A-AREA=50 LWPOLYLINE@A-WALL=6 A-WALL:A-AREA DIMENSION@A-ANNO-DIMS=45 HATCH@A-AREA-PATT=30 INSERT@A-ANNO-SYMB=6
+read_back "$scratch/iso.dxf" meant LWPOLYLINE@A-99----E-=50 LWPOLYLINE@A-21C---E-=6 DIMENSION@A-------D-=45 HATCH@A-99----H-=30 INSERT@A-------S-=6
+read_back "$scratch/tones.dxf" meant DIMENSION@A-------D-=30 HATCH@A-99----H-=40
+read_back "$scratch/table.dxf" meant TEXT=49
 "$TARTAN" house "$files/cabins.plan" "#10:77" -o "$scratch/house.dxf" || fail "house.dxf is not written"
-read_back "$scratch/house.dxf" DIMENSION=10 HATCH=2 LWPOLYLINE=20
+read_back "$scratch/house.dxf" meant DIMENSION=10 HATCH=2 LWPOLYLINE=20
 refused() {
     local words=$1
     shift

@@ -16,7 +16,11 @@ static const tn_hatch_lines diagonal[] = {{.angle = 45, .apart = 1.6}},
                                     {.angle = 90, .x = 9, .y = 1, .shift = 6, .apart = 6, .dashes = {6, 6}},
                                     {.angle = 90, .x = 11, .y = 1, .shift = 6, .apart = 6, .dashes = {6, 6}},
 },
-                            tiles[] = {{.apart = 4}, {.angle = 90, .apart = 4}};
+                            tiles[] = {{.apart = 4}, {.angle = 90, .apart = 4}},
+                            falling[] = {{.angle = -45, .apart = 1.6}},
+                            crossed[] = {{.angle = 45, .apart = 1.6}, {.angle = -45, .apart = 1.6}},
+                            level[] = {{.apart = 1.6}}, upright[] = {{.angle = 90, .apart = 1.6}},
+                            dotted[] = {{.shift = 0.8, .apart = 1.6, .dashes = {0.2, 1.4}}};
 
 #define PATTERN(name, lines)                                                                                           \
     {                                                                                                                  \
@@ -35,6 +39,11 @@ static const struct {
     [TN_HATCH_INSULATION] = PATTERN("INSULATION", insulation),
     [TN_HATCH_EARTH] = PATTERN("EARTH", earth),
     [TN_HATCH_TILES] = PATTERN("TILES", tiles),
+    [TN_HATCH_FALLING] = PATTERN("FALLING", falling),
+    [TN_HATCH_CROSSED] = PATTERN("ANSI37", crossed),
+    [TN_HATCH_LEVEL] = PATTERN("LINE", level),
+    [TN_HATCH_UPRIGHT] = PATTERN("UPRIGHT", upright),
+    [TN_HATCH_DOTTED] = PATTERN("DOTTED", dotted),
 };
 
 const tn_hatch_lines *tn_hatch_made_of(tn_hatch hatch, size_t *count)

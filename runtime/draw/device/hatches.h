@@ -12,6 +12,11 @@ typedef enum tn_hatch {
     TN_HATCH_INSULATION, /* crossed lines: a net */
     TN_HATCH_EARTH,      /* short lines in threes, across and upright */
     TN_HATCH_TILES,      /* squares */
+    TN_HATCH_FALLING,    /* what only tells regions apart: lines that fall to the right */
+    TN_HATCH_CROSSED,
+    TN_HATCH_LEVEL,
+    TN_HATCH_UPRIGHT,
+    TN_HATCH_DOTTED,
     TN_HATCH_COUNT
 } tn_hatch;
 
@@ -30,7 +35,7 @@ typedef struct tn_hatch_lines {
 /* The lines that a pattern is made of. */
 const tn_hatch_lines *tn_hatch_made_of(tn_hatch hatch, size_t *count);
 
-/* Its name, as in "INSULATION"; of diagonal lines "ANSI31", which drawing programs know, 1/8" apart. */
+/* Its name, as in "INSULATION"; that of a pattern that drawing programs know, "ANSI31", with its lines 1/8" apart. */
 const char *tn_hatch_name(tn_hatch hatch);
 
 #endif

@@ -298,12 +298,12 @@ static void draw_frame(const drawing *d, tn_paint *paint, size_t page, size_t pa
 {
     double width = d->width - 2 * MARGIN, zoom = strip_zoom(d->width),
            strip = d->height - MARGIN - strip_height(d->width);
+    tn_paint_layer(paint, TN_LAYER_TITLE);
     tn_paint_rectangle(paint, MARGIN, MARGIN, width, d->height - 2 * MARGIN);
-    tn_paint_line_width(paint, TN_LINE_CUT);
+    tn_paint_weight(paint, TN_WEIGHT_CUT);
     tn_paint_stroke(paint);
     tn_paint_move_to(paint, MARGIN, strip);
     tn_paint_line_to(paint, MARGIN + width, strip);
-    tn_paint_line_width(paint, TN_LINE_CUT);
     tn_paint_stroke(paint);
     tn_paint_save(paint);
     tn_paint_translate(paint, MARGIN, strip);
@@ -317,6 +317,7 @@ static void draw_number(const drawing *d, tn_paint *paint, const tn_drawn_plan *
 {
     if (!plan->number)
         return;
+    tn_paint_layer(paint, TN_LAYER_TEXT);
     tn_paint_face(paint, NUMBER_SIZE - 1, false);
     tn_type_line(paint, x, baseline, TN_ALIGN_LEFT, d->options->number_name);
     double used = tn_type_width(paint, d->options->number_name) + 3;
@@ -337,6 +338,7 @@ static void draw_cell(const drawing *d, tn_paint *paint, const tn_drawn_plan *pl
 {
     double y = top + heading_room(d), height = d->cell_height - heading_room(d);
     tn_paint_target(paint, x, y, d->cell_width, height);
+    tn_paint_layer(paint, TN_LAYER_TEXT);
     if (plan->heading) {
         tn_paint_face(paint, HEADING_SIZE, true);
         tn_type_line(paint, x, top + HEADING_SIZE, TN_ALIGN_LEFT, plan->heading);

@@ -197,7 +197,7 @@ static void draw_rule(const picture *p, const tn_drawn_reason *reason, double y)
 {
     tn_paint_move_to(p->paint, MARGIN, y);
     tn_paint_line_to(p->paint, p->width - MARGIN, y);
-    tn_paint_line_width(p->paint, TN_LINE_HAIR);
+    tn_paint_weight(p->paint, TN_WEIGHT_HATCH);
     tn_paint_stroke(p->paint);
     tn_paint_face(p->paint, RULE_SIZE, true);
     tn_type_fit(p->paint, MARGIN, y + 9.5, TN_ALIGN_LEFT, LABEL_WIDTH, reason->text);
@@ -235,7 +235,7 @@ static void draw_grid(const picture *p, double from, double to)
         tn_paint_line_to(p->paint, p->left + tray_at(p, i), to);
     }
     tn_paint_colour(p->paint, 0.8, 0.8, 0.8);
-    tn_paint_line_width(p->paint, TN_LINE_HAIR);
+    tn_paint_weight(p->paint, TN_WEIGHT_HATCH);
     tn_paint_stroke(p->paint);
     tn_paint_colour(p->paint, 0, 0, 0);
 }

@@ -178,7 +178,7 @@ static void draw_table(const picture *p, const card *c, double y)
             tn_type_line(p->paint, c->x + p->width, y + FIELD_ROOM - 4, TN_ALIGN_RIGHT, p->open->best_name);
         tn_paint_move_to(p->paint, c->x, y + FIELD_ROOM - 1);
         tn_paint_line_to(p->paint, c->x + p->width, y + FIELD_ROOM - 1);
-        tn_paint_line_width(p->paint, TN_LINE_HAIR);
+        tn_paint_weight(p->paint, TN_WEIGHT_HATCH);
         tn_paint_stroke(p->paint);
         y += FIELD_ROOM;
         for (uint32_t v = schema->value_start[f]; v < schema->value_start[f + 1]; v++, y += LEADING)

@@ -10,11 +10,6 @@
 #define TN_NO_FIELD UINT32_MAX
 #define TN_BANDS_MAX 32u
 
-/* Line weights, as on a drawing by hand: what is cut, what is seen, what only measures. */
-#define TN_LINE_CUT 1.3
-#define TN_LINE_EDGE 0.5
-#define TN_LINE_HAIR 0.22
-
 /* What a schema's roles mean for drawing it. */
 typedef struct tn_draw_roles {
     const tn_schema *schema;
@@ -87,8 +82,10 @@ typedef struct tn_draw_area {
     double x, y, width, height;
 } tn_draw_area;
 
-/* A cross of dashes over the area, which leaves `spared` free, and from three storeys on their number. */
-void tn_draw_level_mark(tn_paint *paint, uint32_t levels, tn_draw_area area, tn_draw_area spared);
+/* A cross of dashes over the area, which leaves what is `spared` free (at most TN_SPARED_MOST), and from three storeys
+ * on their number, beside what is spared first where that reaches as high. */
+#define TN_SPARED_MOST 2u
+void tn_draw_level_mark(tn_paint *paint, uint32_t levels, tn_draw_area area, const tn_draw_area *spared, size_t count);
 void tn_draw_hall_mark(tn_paint *paint, double x, double y, double radius);
 void tn_draw_public_mark(tn_paint *paint, double x, double y, double dx,
                          double dy); /* tip at (x, y), pointing (dx, dy) */

@@ -3,7 +3,10 @@
 #include <stdio.h>
 
 #include "runtime/draw/type.h"
+#include "runtime/math/elementary.h"
 #include "runtime/plan/picture/draw_parts.h"
+
+#define PI 3.14159265358979323846
 
 /* ---- one plan as a table */
 
@@ -47,21 +50,22 @@ double tn_draw_table_height(const tn_draw_table *table, const tn_draw_roles *rol
 static void draw_lines(tn_paint *paint, const tn_draw_table *table, double x, double y, double width, double height,
                        size_t length)
 {
+    tn_paint_layer(paint, TN_LAYER_AREA);
     for (double row = table->head_height > 0 ? table->head_height : table->row_height; row < height - 0.01;
          row += table->row_height) {
         tn_paint_move_to(paint, x, y + row);
         tn_paint_line_to(paint, x + width, y + row);
     }
-    tn_paint_line_width(paint, TN_LINE_HAIR);
+    tn_paint_weight(paint, TN_WEIGHT_HATCH);
     tn_paint_stroke(paint);
     for (size_t i = 1; i < length; i++) {
         tn_paint_move_to(paint, x + table->box_width * (double)i, y);
         tn_paint_line_to(paint, x + table->box_width * (double)i, y + height);
     }
-    tn_paint_line_width(paint, TN_LINE_EDGE);
+    tn_paint_weight(paint, TN_WEIGHT_THIN);
     tn_paint_stroke(paint);
     tn_paint_rectangle(paint, x, y, width, height);
-    tn_paint_line_width(paint, TN_LINE_CUT);
+    tn_paint_weight(paint, TN_WEIGHT_CUT);
     tn_paint_stroke(paint);
 }
 
@@ -72,6 +76,7 @@ static void draw_row(tn_paint *paint, const tn_draw_roles *roles, const tn_draw_
     bool head = field == roles->text;
     double height = head ? table->head_height : table->row_height, size = head ? HEAD_SIZE : TABLE_SIZE;
     bool flag = roles->schema->fields[field].kind == TN_FIELD_FLAG;
+    tn_paint_layer(paint, TN_LAYER_TEXT);
     tn_paint_face(paint, TABLE_SIZE - 0.8, head);
     tn_type_line(paint, left - 5, y + height / 2 + 2.1, TN_ALIGN_RIGHT,
                  tn_text(roles->schema->module, roles->schema->fields[field].name));
@@ -82,6 +87,7 @@ static void draw_row(tn_paint *paint, const tn_draw_roles *roles, const tn_draw_
             tn_draw_tone(paint, roles, value, x, y, table->box_width, height);
         if (field == roles->hatch)
             tn_draw_hatch(paint, roles, value, x, y, table->box_width, height);
+        tn_paint_layer(paint, head ? TN_LAYER_ROOM : TN_LAYER_TEXT);
         tn_paint_face(paint, size, head);
         if (!flag || value) /* a flag that is not set says nothing */
             tn_type_line(paint, x + table->box_width / 2, y + height / 2 + size * 0.36, TN_ALIGN_CENTRE,
@@ -117,6 +123,7 @@ void tn_draw_table_plan(tn_paint *paint, const tn_draw_roles *roles, const tn_dr
 #define WRITTEN_LEADING 5.8
 
 #define DIMENSION_GAP 11.0 /* from the plan to the line that measures trays */
+#define DIMENSION_OUT 4.5  /* how far above a line what it measures is marked */
 #define OVERALL_GAP 10.5   /* from there to the line that measures the whole */
 
 /* A band of one tray, in points. */
@@ -210,58 +217,85 @@ static void within(double at, double by, double low, double high, double *from, 
     *to = fmin(*to, fmax(a, b));
 }
 
-/* A line that leaves an area free. */
-static void line_around(tn_paint *paint, double x, double y, double across, double down, tn_draw_area spared)
+/* A line that leaves areas free. */
+static void line_around(tn_paint *paint, double x, double y, double across, double down, const tn_draw_area *spared,
+                        size_t count)
 {
-    double from = 0, to = 1;
-    within(x, across, spared.x, spared.x + spared.width, &from, &to);
-    within(y, down, spared.y, spared.y + spared.height, &from, &to);
-    tn_paint_move_to(paint, x, y);
-    if (from < to) {
-        tn_paint_line_to(paint, x + from * across, y + from * down);
-        tn_paint_move_to(paint, x + to * across, y + to * down);
+    for (double at = 0; at < 1;) {
+        double until = 1, next = 1;
+        for (size_t i = 0; i < count; i++) {
+            double from = at, to = 1;
+            within(x, across, spared[i].x, spared[i].x + spared[i].width, &from, &to);
+            within(y, down, spared[i].y, spared[i].y + spared[i].height, &from, &to);
+            if (from >= to || from >= until)
+                continue;
+            until = from;
+            next = to;
+        }
+        if (until > at) {
+            tn_paint_move_to(paint, x + at * across, y + at * down);
+            tn_paint_line_to(paint, x + until * across, y + until * down);
+        }
+        at = next;
     }
-    tn_paint_line_to(paint, x + across, y + down);
 }
 
-void tn_draw_level_mark(tn_paint *paint, uint32_t levels, tn_draw_area area, tn_draw_area spared)
+void tn_draw_level_mark(tn_paint *paint, uint32_t levels, tn_draw_area area, const tn_draw_area *spared, size_t count)
 {
     static const double dashes[] = {3, 1.6};
     tn_paint_save(paint);
+    tn_paint_layer(paint, TN_LAYER_OVERHEAD);
     tn_paint_dash(paint, dashes, 2, 0);
-    tn_paint_line_width(paint, 0.4);
-    line_around(paint, area.x, area.y, area.width, area.height, spared);
-    line_around(paint, area.x + area.width, area.y, -area.width, area.height, spared);
+    tn_paint_weight(paint, TN_WEIGHT_HATCH);
+    line_around(paint, area.x, area.y, area.width, area.height, spared, count);
+    line_around(paint, area.x + area.width, area.y, -area.width, area.height, spared, count);
     tn_paint_stroke(paint);
     tn_paint_restore(paint);
     if (levels < 3)
         return;
     char text[16];
-    bool beside = spared.width > 0 && spared.y < area.y + 7; /* of a name that reaches as high */
+    bool beside = count > 0 && spared[0].width > 0 && spared[0].y < area.y + 7; /* of a name that reaches as high */
     snprintf(text, sizeof text, "%u", levels);
+    tn_paint_layer(paint, TN_LAYER_SYMBOL);
     tn_paint_face(paint, DIMENSION_SIZE, false);
-    tn_type_line(paint, beside ? (area.x + spared.x) / 2 : area.x + area.width / 2, area.y + 7, TN_ALIGN_CENTRE, text);
+    tn_type_line(paint, beside ? (area.x + spared[0].x) / 2 : area.x + area.width / 2, area.y + 7, TN_ALIGN_CENTRE,
+                 text);
+}
+
+static void draw_circle(tn_paint *paint, const void *of)
+{
+    tn_paint_new_sub_path(paint);
+    tn_paint_arc(paint, 0, 0, *(const double *)of, 0, 2 * PI);
+    tn_paint_colour(paint, 1, 1, 1);
+    tn_paint_fill_keep(paint);
+    tn_paint_colour(paint, 0, 0, 0);
+    tn_paint_weight(paint, TN_WEIGHT_THIN);
+    tn_paint_stroke(paint);
 }
 
 void tn_draw_hall_mark(tn_paint *paint, double x, double y, double radius)
 {
-    tn_paint_new_sub_path(paint);
-    tn_paint_arc(paint, x, y, radius, 0, 2 * 3.14159265358979323846);
-    tn_paint_colour(paint, 1, 1, 1);
-    tn_paint_fill_keep(paint);
-    tn_paint_colour(paint, 0, 0, 0);
-    tn_paint_line_width(paint, 0.7);
-    tn_paint_stroke(paint);
+    char name[40];
+    snprintf(name, sizeof name, "GREAT-HALL-%.0f", radius * 1000);
+    tn_paint_layer(paint, TN_LAYER_SYMBOL);
+    tn_paint_symbol(paint, &(tn_drawn_symbol){name, draw_circle, &radius}, x, y, 0, false);
+}
+
+static void draw_arrow(tn_paint *paint, const void *of)
+{
+    const double length = 7, half = 3.4;
+    (void)of;
+    tn_paint_move_to(paint, 0, 0);
+    tn_paint_line_to(paint, -length, half);
+    tn_paint_line_to(paint, -length, -half);
+    tn_paint_close_path(paint);
+    tn_paint_fill(paint);
 }
 
 void tn_draw_public_mark(tn_paint *paint, double x, double y, double dx, double dy)
 {
-    const double length = 7, half = 3.4;
-    tn_paint_move_to(paint, x, y);
-    tn_paint_line_to(paint, x - dx * length - dy * half, y - dy * length + dx * half);
-    tn_paint_line_to(paint, x - dx * length + dy * half, y - dy * length - dx * half);
-    tn_paint_close_path(paint);
-    tn_paint_fill(paint);
+    tn_paint_layer(paint, TN_LAYER_SYMBOL);
+    tn_paint_symbol(paint, &(tn_drawn_symbol){"PUBLIC-END", draw_arrow, NULL}, x, y, tn_atan2(dy, dx), false);
 }
 
 /* The rectangle of a band of a tray that starts at `x`; false where the band is absent there. */
@@ -290,15 +324,70 @@ static double tray_width(const picture *p, size_t i)
     return (double)value_of(p->roles, p->plan->trays[i], p->roles->length)->length * p->scale;
 }
 
-/* Puts the rectangles of all bands on the path. */
-static void outline(const picture *p)
+/* How far a tray reaches up and down from the spine's upper edge, in nanometres: its bands lie one at the other. */
+static void reach_of(const picture *p, size_t i, int64_t *above, int64_t *below)
+{
+    *above = *below = 0;
+    for (uint32_t b = 0; b < p->roles->band_count; b++)
+        *(b < p->roles->spine ? above : below) += depth_of(p->roles, p->plan->trays[i], b);
+}
+
+static double edge_of(const picture *p, size_t i, bool upper)
+{
+    int64_t above, below;
+    reach_of(p, i, &above, &below);
+    return p->y + (double)(upper ? -above : below) * p->scale;
+}
+
+/* The contour goes on at x as an edge at y; where it does already, nothing is to be done. */
+static void go_on(const picture *p, double x, double y, double *last)
+{
+    if (y == *last)
+        return;
+    if (!isnan(*last))
+        tn_paint_line_to(p->paint, x, *last);
+    tn_paint_line_to(p->paint, x, y);
+    *last = y;
+}
+
+/* Around the trays from `from` to `end`, which have bands: along the upper edges, and back along the lower ones.
+ * Returns where the last of them ends. */
+static double trace_contour(const picture *p, size_t from, size_t end, double x)
+{
+    double last = NAN, right;
+    tn_paint_new_sub_path(p->paint);
+    for (size_t i = from; i < end; x += tray_width(p, i++))
+        go_on(p, x, edge_of(p, i, true), &last);
+    right = x;
+    for (size_t i = end; i > from; x -= tray_width(p, --i))
+        go_on(p, x, edge_of(p, i - 1, false), &last);
+    tn_paint_line_to(p->paint, x, last);
+    tn_paint_close_path(p->paint);
+    return right;
+}
+
+static bool has_bands(const picture *p, size_t i)
+{
+    int64_t above, below;
+    reach_of(p, i, &above, &below);
+    return above + below > 0;
+}
+
+/* The contour of what is built: of each row of trays that have bands. */
+static void draw_contour(const picture *p)
 {
     double x = p->x;
-    rectangle r;
-    for (size_t i = 0; i < p->plan->length; x += tray_width(p, i++))
-        for (uint32_t b = 0; b < p->roles->band_count; b++)
-            if (band_rectangle(p, p->plan->trays[i], b, x, &r))
-                tn_paint_rectangle(p->paint, r.x, r.y, r.width, r.height);
+    for (size_t i = 0, end; i < p->plan->length; i = end) {
+        for (end = i; end < p->plan->length && has_bands(p, end);)
+            end++;
+        if (end > i)
+            x = trace_contour(p, i, end, x);
+        else
+            x += tray_width(p, end++);
+    }
+    tn_paint_layer(p->paint, TN_LAYER_WALL_CUT);
+    tn_paint_weight(p->paint, TN_WEIGHT_CUT);
+    tn_paint_stroke(p->paint);
 }
 
 /* The room of a tray, which height, public end and great hall are said of: its spine band, or, where that is absent,
@@ -323,9 +412,10 @@ static void draw_bare(const picture *p, rectangle room)
 {
     static const double dashes[] = {2.5, 2};
     tn_paint_save(p->paint);
+    tn_paint_layer(p->paint, TN_LAYER_AREA);
     tn_paint_dash(p->paint, dashes, 2, 0);
     tn_paint_rectangle(p->paint, room.x, room.y, room.width, room.height);
-    tn_paint_line_width(p->paint, TN_LINE_EDGE);
+    tn_paint_weight(p->paint, TN_WEIGHT_THIN);
     tn_paint_stroke(p->paint);
     tn_paint_restore(p->paint);
 }
@@ -346,17 +436,8 @@ static void draw_room(const picture *p, tn_tray tray, double x, double width)
         draw_bare(p, room);
 }
 
-/* The heavy contour is what remains of thick outlines when the insides are painted white over them. */
 static void draw_masses(const picture *p)
 {
-    outline(p);
-    tn_paint_line_width(p->paint, 2 * TN_LINE_CUT);
-    tn_paint_line_join(p->paint, TN_JOIN_MITRE);
-    tn_paint_stroke(p->paint);
-    outline(p);
-    tn_paint_colour(p->paint, 1, 1, 1);
-    tn_paint_fill(p->paint);
-    tn_paint_colour(p->paint, 0, 0, 0);
     double x = p->x;
     rectangle r;
     for (size_t i = 0; i < p->plan->length; x += tray_width(p, i++)) {
@@ -365,11 +446,12 @@ static void draw_masses(const picture *p)
             if (band_rectangle(p, p->plan->trays[i], b, x, &r))
                 tn_draw_fill(p->paint, p->roles, r.value, r.x, r.y, r.width, r.height);
     }
+    draw_contour(p);
 }
 
 static void draw_public_end(const picture *p, size_t i, const rectangle *room, double bottom)
 {
-    double middle = room->y + room->height / 2, gap = TN_LINE_CUT + 3;
+    double middle = room->y + room->height / 2, gap = 4.5;
     if (i == 0)
         tn_draw_public_mark(p->paint, room->x - gap, middle, 1, 0);
     else if (i + 1 == p->plan->length)
@@ -395,20 +477,32 @@ static const char *find_text(const picture *p, tn_tray tray, double x, double wi
     return tn_text(roles->schema->module, value_of(roles, tray, roles->text)->spelling);
 }
 
-/* The cross of a room of several storeys goes round its name. */
+static double hall_radius(rectangle room)
+{
+    return fmin(9, fmin(room.width, room.height) * 0.27);
+}
+
+/* The cross of a room of several storeys goes round its name, and ends at the mark of the great hall. */
 static void draw_levels(const picture *p, tn_tray tray, rectangle room, const char *text, tn_draw_area area)
 {
     uint32_t levels = p->roles->level == TN_NO_FIELD ? 1 : tn_tray_value(p->roles->schema, tray, p->roles->level) + 1;
-    tn_draw_area spared = {0};
+    tn_draw_area spared[TN_SPARED_MOST];
+    size_t count = 0;
     if (levels < 2)
         return;
     if (text) {
-        spared = area;
-        tn_draw_inside_room(p->paint, text, TN_INSIDE_SIZE, &spared.width, &spared.height);
-        spared.x += (area.width - spared.width) / 2;
-        spared.y += (area.height - spared.height) / 2;
+        tn_draw_area *name = &spared[count++];
+        *name = area;
+        tn_draw_inside_room(p->paint, text, TN_INSIDE_SIZE, &name->width, &name->height);
+        name->x += (area.width - name->width) / 2;
+        name->y += (area.height - name->height) / 2;
     }
-    tn_draw_level_mark(p->paint, levels, (tn_draw_area){room.x, room.y, room.width, room.height}, spared);
+    if (is_set(p->roles, tray, p->roles->great_hall)) {
+        double part = hall_radius(room) / hypot(room.width, room.height);
+        spared[count++] = (tn_draw_area){room.x + room.width * (0.5 - part), room.y + room.height * (0.5 - part),
+                                         room.width * 2 * part, room.height * 2 * part};
+    }
+    tn_draw_level_mark(p->paint, levels, (tn_draw_area){room.x, room.y, room.width, room.height}, spared, count);
 }
 
 static void draw_marks(const picture *p, double bottom)
@@ -427,8 +521,7 @@ static void draw_marks(const picture *p, double bottom)
             continue;
         draw_levels(p, tray, room, text, area);
         if (is_set(roles, tray, roles->great_hall))
-            tn_draw_hall_mark(p->paint, room.x + room.width / 2, room.y + room.height / 2,
-                              fmin(9, fmin(room.width, room.height) * 0.27));
+            tn_draw_hall_mark(p->paint, room.x + room.width / 2, room.y + room.height / 2, hall_radius(room));
         if (is_set(roles, tray, roles->public_end))
             draw_public_end(p, i, &room, bottom);
     }
@@ -446,7 +539,8 @@ static void draw_side(tn_paint *paint, const tn_draw_roles *roles, uint32_t band
     const tn_schema *schema = roles->schema;
     tn_paint_save(paint);
     tn_paint_translate(paint, x + TN_SIDES_ROOM / 2, middle);
-    tn_paint_rotate(paint, -3.14159265358979323846 / 2);
+    tn_paint_rotate(paint, -PI / 2);
+    tn_paint_layer(paint, TN_LAYER_TEXT);
     tn_paint_face(paint, DIMENSION_SIZE, false);
     tn_type_fit(paint, 0, DIMENSION_SIZE * 0.36, TN_ALIGN_CENTRE, room,
                 tn_text(schema->module, schema->fields[roles->bands[band]].name));
@@ -461,27 +555,6 @@ void tn_draw_sides(tn_paint *paint, const tn_draw_roles *roles, double x, double
     draw_side(paint, roles, roles->band_count - 1, x, spine + below - lower / 2, lower);
 }
 
-/* An architect's tick: a short stroke across the dimension line. */
-static void tick(tn_paint *paint, double x, double y)
-{
-    tn_paint_move_to(paint, x, y - 2.2);
-    tn_paint_line_to(paint, x, y + 2.2);
-    tn_paint_line_width(paint, TN_LINE_HAIR);
-    tn_paint_stroke(paint);
-    tn_paint_move_to(paint, x - 1.5, y + 1.5);
-    tn_paint_line_to(paint, x + 1.5, y - 1.5);
-    tn_paint_line_width(paint, 0.7);
-    tn_paint_stroke(paint);
-}
-
-static void dimension_line(const picture *p, double from, double to, double y)
-{
-    tn_paint_move_to(p->paint, from, y);
-    tn_paint_line_to(p->paint, to, y);
-    tn_paint_line_width(p->paint, TN_LINE_HAIR);
-    tn_paint_stroke(p->paint);
-}
-
 /* What no mark shows is written below the tray, a line for each field. */
 static void write_values(const picture *p, size_t i, double x, double y, double width)
 {
@@ -489,6 +562,7 @@ static void write_values(const picture *p, size_t i, double x, double y, double 
     const tn_schema *schema = p->roles->schema;
     if (width < WRITTEN_MIN)
         return;
+    tn_paint_layer(p->paint, TN_LAYER_TEXT);
     tn_paint_face(p->paint, WRITTEN_SIZE, false);
     for (uint32_t f = 0; f < schema->field_count; f++) {
         if (!is_worth_writing(p->roles, tray, f))
@@ -499,6 +573,19 @@ static void write_values(const picture *p, size_t i, double x, double y, double 
     }
 }
 
+/* Measures from x to `to` along a line at y. What is drawn out to it begins beside it, as from far trays it would look
+ * like their sides. The text is left out without room for it. */
+static void draw_dimension(const picture *p, double x, double to, double y, const char *text)
+{
+    tn_paint_layer(p->paint, TN_LAYER_DIMENSION);
+    tn_paint_weight(p->paint, TN_WEIGHT_HATCH);
+    tn_paint_face(p->paint, DIMENSION_SIZE, false);
+    tn_paint_dimension(p->paint, &(tn_dimension){.from = {x, y - DIMENSION_OUT},
+                                                 .to = {to, y - DIMENSION_OUT},
+                                                 .offset = -DIMENSION_OUT,
+                                                 .text = tn_type_width(p->paint, text) < to - x ? text : ""});
+}
+
 static void draw_dimensions(const picture *p, double bottom, const tn_draw_extent *extent)
 {
     double y = bottom + DIMENSION_GAP, x = p->x;
@@ -506,26 +593,15 @@ static void draw_dimensions(const picture *p, double bottom, const tn_draw_exten
     char text[64];
     for (size_t i = 0; i < p->plan->length; i++) {
         const tn_value_record *value = value_of(p->roles, p->plan->trays[i], p->roles->length);
-        const char *spelling = tn_text(p->roles->schema->module, value->name);
         double width = (double)value->length * p->scale;
-        tick(p->paint, x, y);
-        tn_paint_face(p->paint, DIMENSION_SIZE, false);
-        if (tn_type_width(p->paint, spelling) < width)
-            tn_type_line(p->paint, x + width / 2, y - 2, TN_ALIGN_CENTRE, spelling);
+        draw_dimension(p, x, x + width, y, tn_text(p->roles->schema->module, value->name));
         write_values(p, i, x, y + WRITTEN_LEADING + 0.5, width);
         total += value->length;
         x += width;
     }
-    tick(p->paint, x, y);
-    dimension_line(p, p->x, x, y);
     y += OVERALL_GAP + extent->written_lines * WRITTEN_LEADING;
-    tick(p->paint, p->x, y);
-    tick(p->paint, x, y);
-    dimension_line(p, p->x, x, y);
     tn_draw_length(p->roles, total, text, sizeof text);
-    tn_paint_face(p->paint, DIMENSION_SIZE, false);
-    if (tn_type_width(p->paint, text) < x - p->x)
-        tn_type_line(p->paint, (p->x + x) / 2, y - 2, TN_ALIGN_CENTRE, text);
+    draw_dimension(p, p->x, x, y, text);
 }
 
 /* Each tray's place, from its highest band to its lowest. */
@@ -552,6 +628,7 @@ void tn_draw_plan(tn_paint *paint, const tn_draw_roles *roles, const tn_drawn_pl
 {
     picture p = {paint, roles, plan, scale, x, y};
     if (plan->length == 0) {
+        tn_paint_layer(paint, TN_LAYER_TEXT);
         tn_paint_face(paint, DIMENSION_SIZE, false);
         tn_type_line(paint, x, y + 6, TN_ALIGN_LEFT, "no trays");
         return;

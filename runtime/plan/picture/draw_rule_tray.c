@@ -434,7 +434,7 @@ static void draw_levels(tn_paint *paint, const tn_draw_roles *roles, uint32_t sp
     for (uint32_t v = 0; v < count; v++)
         most = allows(roles, spec, roles->level, v) ? v + 1 : most;
     if (allowed(roles, spec, roles->level) == 1 && most > 1) {
-        tn_draw_level_mark(paint, most, (tn_draw_area){left, y, TRAY_WIDTH, height}, (tn_draw_area){0});
+        tn_draw_level_mark(paint, most, (tn_draw_area){left, y, TRAY_WIDTH, height}, NULL, 0);
         return;
     }
     for (uint32_t i = 0; i < most; i++)
@@ -455,7 +455,7 @@ static void draw_width(tn_paint *paint, const tn_draw_roles *roles, uint32_t spe
     }
     tn_paint_move_to(paint, x, y + 3.5);
     tn_paint_line_to(paint, x + TRAY_WIDTH, y + 3.5);
-    tn_paint_line_width(paint, TN_LINE_HAIR + 0.1);
+    tn_paint_weight(paint, TN_WEIGHT_HATCH);
     tn_paint_stroke(paint);
     tn_paint_face(paint, TEXT_SIZE, true);
     tn_type_line(paint, x + TRAY_WIDTH / 2, y + 11.5, TN_ALIGN_CENTRE, text);
@@ -569,7 +569,7 @@ void tn_draw_spec_measure(tn_paint *paint, const tn_draw_roles *roles, uint32_t 
 static void draw_frame(tn_paint *paint, double x, double y, double width, double height)
 {
     tn_paint_rectangle(paint, x, y, width, height);
-    tn_paint_line_width(paint, TN_LINE_CUT);
+    tn_paint_weight(paint, TN_WEIGHT_CUT);
     tn_paint_stroke(paint);
 }
 

@@ -36,17 +36,25 @@ static const char *text_at(const strip *s, tn_string string)
     return tn_text(s->roles->schema->module, string);
 }
 
+/* What the strip says. What it shows is on the layers that it has in plans. */
+static void begin_words(const strip *s)
+{
+    tn_paint_layer(s->paint, TN_LAYER_TITLE);
+}
+
 static void heading(const strip *s, const char *text)
 {
+    begin_words(s);
     tn_paint_face(s->paint, HEADING_SIZE, true);
     tn_type_line(s->paint, s->x + PADDING, s->y + 13, TN_ALIGN_LEFT, text);
 }
 
 static void divider(const strip *s, double x)
 {
+    begin_words(s);
     tn_paint_move_to(s->paint, x, s->y);
     tn_paint_line_to(s->paint, x, s->y + TN_STRIP_HEIGHT);
-    tn_paint_line_width(s->paint, TN_LINE_EDGE);
+    tn_paint_weight(s->paint, TN_WEIGHT_THIN);
     tn_paint_stroke(s->paint);
 }
 
@@ -78,28 +86,26 @@ static void draw_key(const strip *s)
     heading(s, "ONE TRAY");
     if (depth <= 0)
         return;
-    tn_paint_rectangle(s->paint, x, y, tray, room);
-    tn_paint_line_width(s->paint, 2 * TN_LINE_CUT);
-    tn_paint_stroke(s->paint);
-    tn_paint_rectangle(s->paint, x, y, tray, room);
-    tn_paint_colour(s->paint, 1, 1, 1);
-    tn_paint_fill(s->paint);
-    tn_paint_colour(s->paint, 0, 0, 0);
     for (uint32_t b = 0; b < roles->band_count; b++) {
         const tn_value_record *value = key_value(s, roles->bands[b]);
         if (!value)
             continue;
         double height = (double)value->length / depth * room;
         tn_draw_fill(s->paint, roles, (uint32_t)(value - roles->schema->values), x, y, tray, height);
+        begin_words(s);
         tn_paint_move_to(s->paint, x + tray + 4, y + height / 2);
         tn_paint_line_to(s->paint, x + tray + 12, y + height / 2);
-        tn_paint_line_width(s->paint, TN_LINE_HAIR);
+        tn_paint_weight(s->paint, TN_WEIGHT_HATCH);
         tn_paint_stroke(s->paint);
         tn_paint_face(s->paint, LABEL_SIZE, false);
         tn_type_fit(s->paint, x + tray + 15, y + height / 2 + 2.3, TN_ALIGN_LEFT, KEY_WIDTH - tray - 15 - 2 * PADDING,
                     text_at(s, roles->schema->fields[roles->bands[b]].name));
         y += height;
     }
+    tn_paint_rectangle(s->paint, x, s->y + 22, tray, room);
+    tn_paint_layer(s->paint, TN_LAYER_WALL_CUT);
+    tn_paint_weight(s->paint, TN_WEIGHT_CUT);
+    tn_paint_stroke(s->paint);
 }
 
 /* The place of the next entry's swatch; false where the legend is full. */
@@ -119,6 +125,7 @@ static bool next_entry(strip *s, double *x, double *y, double *width)
 
 static void label(const strip *s, double x, double y, double width, const char *name, const char *doc)
 {
+    begin_words(s);
     x += SWATCH_WIDTH + 6;
     tn_paint_face(s->paint, LABEL_SIZE, true);
     double used = tn_type_width(s->paint, name) + 4;
@@ -192,10 +199,11 @@ static void level_entries(strip *s)
         if (!next_entry(s, &x, &y, &width))
             return;
         tn_paint_rectangle(s->paint, x, y, SWATCH_WIDTH, SWATCH_HEIGHT);
-        tn_paint_line_width(s->paint, TN_LINE_HAIR);
+        tn_paint_layer(s->paint, TN_LAYER_AREA);
+        tn_paint_weight(s->paint, TN_WEIGHT_HATCH);
         tn_paint_stroke(s->paint);
         tn_draw_level_mark(s->paint, v - schema->value_start[field] + 1,
-                           (tn_draw_area){x, y, SWATCH_WIDTH, SWATCH_HEIGHT}, (tn_draw_area){0});
+                           (tn_draw_area){x, y, SWATCH_WIDTH, SWATCH_HEIGHT}, NULL, 0);
         tn_string doc = schema->values[v].doc ? schema->values[v].doc : schema->fields[field].doc;
         label(s, x, y, width, text_at(s, schema->values[v].name), text_at(s, doc ? doc : schema->fields[field].name));
     }
@@ -225,7 +233,8 @@ static void choice_entries(strip *s, uint32_t field, bool tone)
         const tn_value_record *value = &schema->values[schema->value_start[field] + v];
         (tone ? tn_draw_tone : tn_draw_hatch)(s->paint, s->roles, v, x, y, SWATCH_WIDTH, SWATCH_HEIGHT);
         tn_paint_rectangle(s->paint, x, y, SWATCH_WIDTH, SWATCH_HEIGHT);
-        tn_paint_line_width(s->paint, TN_LINE_HAIR);
+        tn_paint_layer(s->paint, TN_LAYER_AREA);
+        tn_paint_weight(s->paint, TN_WEIGHT_HATCH);
         tn_paint_stroke(s->paint);
         label(s, x, y, width, text_at(s, value->name),
               value->doc ? text_at(s, value->doc) : text_at(s, schema->fields[field].name));
@@ -309,7 +318,7 @@ static void draw_scale(const strip *s, uint32_t scale, double zoom)
         if (i == steps)
             break;
         tn_paint_rectangle(s->paint, at, y, width, 3.4);
-        tn_paint_line_width(s->paint, TN_LINE_EDGE);
+        tn_paint_weight(s->paint, TN_WEIGHT_THIN);
         if (i % 2 == 0)
             tn_paint_fill_keep(s->paint);
         tn_paint_stroke(s->paint);
@@ -320,6 +329,7 @@ static void draw_title(const strip *s, const tn_draw_options *options, size_t pa
 {
     double x = s->x + PADDING, width = s->width - 2 * PADDING, y = s->y + 26;
     const char *title = options->title ? options->title : text_at(s, s->roles->schema->record->name);
+    begin_words(s);
     tn_paint_face(s->paint, TITLE_SIZE, true);
     tn_type_fit(s->paint, x, y, TN_ALIGN_LEFT, width, title);
     y += 13;
@@ -329,7 +339,7 @@ static void draw_title(const strip *s, const tn_draw_options *options, size_t pa
     }
     tn_paint_move_to(s->paint, x, y - 2);
     tn_paint_line_to(s->paint, x + width, y - 2);
-    tn_paint_line_width(s->paint, TN_LINE_HAIR);
+    tn_paint_weight(s->paint, TN_WEIGHT_HATCH);
     tn_paint_stroke(s->paint);
     y += 8;
     tn_paint_face(s->paint, DOC_SIZE, false);

@@ -113,78 +113,21 @@ void tn_draw_length(const tn_draw_roles *roles, int64_t nanometres, char *text, 
     tn_length_write_style(nanometres, roles->style, text, size);
 }
 
-#define HATCH_SPACING 2.8
-#define COARSE 1.9 /* how much wider light hatches are */
-#define DOT 0.7
+#define DENSE 1.5  /* how much wider than a material's lines those of solid fills are */
+#define COARSE 2.8 /* light ones */
 
-typedef enum hatching { PLAIN, RISING, FALLING, CROSSED, LEVEL, UPRIGHT, GRID, DOTTED, HATCHINGS } hatching;
+/* Of what has no pattern: it is left plain. */
+#define PLAIN TN_HATCH_COUNT
 
-/* Lines at 45 degrees, x + y = a multiple of the spacing, so that the hatches of neighbours meet. */
-static void rising(tn_paint *paint, double spacing, double x, double y, double width, double height)
+/* The hatches of neighbours meet. */
+static void hatch(tn_paint *paint, tn_hatch how, double size, double x, double y, double width, double height)
 {
-    for (double sum = ceil((x + y) / spacing) * spacing; sum < x + y + width + height; sum += spacing) {
-        double from = fmax(x, sum - y - height), to = fmin(x + width, sum - y);
-        if (to - from < 0.01)
-            continue;
-        tn_paint_move_to(paint, from, sum - from);
-        tn_paint_line_to(paint, to, sum - to);
-    }
-}
-
-/* The same mirrored: x - y = a multiple of the spacing. */
-static void falling(tn_paint *paint, double spacing, double x, double y, double width, double height)
-{
-    for (double lead = ceil((x - y - height) / spacing) * spacing; lead < x + width - y; lead += spacing) {
-        double from = fmax(x, lead + y), to = fmin(x + width, lead + y + height);
-        if (to - from < 0.01)
-            continue;
-        tn_paint_move_to(paint, from, from - lead);
-        tn_paint_line_to(paint, to, to - lead);
-    }
-}
-
-static void level(tn_paint *paint, double spacing, double x, double y, double width, double height)
-{
-    for (double at = ceil((y + 0.01) / spacing) * spacing; at < y + height; at += spacing) {
-        tn_paint_move_to(paint, x, at);
-        tn_paint_line_to(paint, x + width, at);
-    }
-}
-
-static void upright(tn_paint *paint, double spacing, double x, double y, double width, double height)
-{
-    for (double at = ceil((x + 0.01) / spacing) * spacing; at < x + width; at += spacing) {
-        tn_paint_move_to(paint, at, y);
-        tn_paint_line_to(paint, at, y + height);
-    }
-}
-
-/* Dashed lines, which take a hundredth of the bytes of so many points. */
-static void dotted(tn_paint *paint, double spacing, double x, double y, double width, double height)
-{
-    const double dashes[] = {DOT, spacing - DOT};
-    tn_paint_save(paint);
-    tn_paint_dash(paint, dashes, 2, x - floor(x / spacing) * spacing);
-    level(paint, spacing, x, y, width, height);
-    tn_paint_line_width(paint, DOT);
-    tn_paint_stroke(paint);
-    tn_paint_restore(paint);
-}
-
-static void hatch(tn_paint *paint, hatching how, double spacing, double x, double y, double width, double height)
-{
-    if (how == RISING || how == CROSSED)
-        rising(paint, spacing, x, y, width, height);
-    if (how == FALLING || how == CROSSED)
-        falling(paint, spacing, x, y, width, height);
-    if (how == LEVEL || how == GRID)
-        level(paint, spacing, x, y, width, height);
-    if (how == UPRIGHT || how == GRID)
-        upright(paint, spacing, x, y, width, height);
-    tn_paint_line_width(paint, TN_LINE_HAIR + 0.08);
-    tn_paint_stroke(paint);
-    if (how == DOTTED)
-        dotted(paint, spacing, x, y, width, height);
+    if (how == PLAIN)
+        return;
+    tn_paint_rectangle(paint, x, y, width, height);
+    tn_paint_layer(paint, TN_LAYER_AREA_HATCH);
+    tn_paint_weight(paint, TN_WEIGHT_HATCH);
+    tn_paint_hatch(paint, how, how == TN_HATCH_TILES ? size / 2 : size);
 }
 
 /* How many fills of that role, but of other names, the bands have before this one. */
@@ -214,20 +157,32 @@ static unsigned names_before(const tn_draw_roles *roles, uint32_t value)
 void tn_draw_fill(tn_paint *paint, const tn_draw_roles *roles, uint32_t value, double x, double y, double width,
                   double height)
 {
-    static const hatching solids[] = {RISING, CROSSED, FALLING, UPRIGHT, LEVEL, GRID},
-                          voids[] = {PLAIN, DOTTED, LEVEL, UPRIGHT},
-                          others[] = {PLAIN, DOTTED, RISING, FALLING, UPRIGHT, LEVEL};
+    static const tn_hatch solids[] = {TN_HATCH_DIAGONAL, TN_HATCH_CROSSED, TN_HATCH_FALLING,
+                                      TN_HATCH_UPRIGHT,  TN_HATCH_LEVEL,   TN_HATCH_TILES},
+                          voids[] = {PLAIN, TN_HATCH_DOTTED, TN_HATCH_LEVEL, TN_HATCH_UPRIGHT},
+                          others[] = {
+                              PLAIN,         TN_HATCH_DOTTED, TN_HATCH_DIAGONAL, TN_HATCH_FALLING, TN_HATCH_UPRIGHT,
+                              TN_HATCH_LEVEL};
     tn_fill_role role = (tn_fill_role)roles->schema->values[value].role;
     unsigned before = names_before(roles, value);
     if (role == TN_FILL_SOLID)
-        hatch(paint, solids[before % (sizeof solids / sizeof *solids)], HATCH_SPACING, x, y, width, height);
+        hatch(paint, solids[before % (sizeof solids / sizeof *solids)], DENSE, x, y, width, height);
     else if (role == TN_FILL_VOID)
-        hatch(paint, voids[before % (sizeof voids / sizeof *voids)], HATCH_SPACING * COARSE, x, y, width, height);
+        hatch(paint, voids[before % (sizeof voids / sizeof *voids)], COARSE, x, y, width, height);
     else
-        hatch(paint, others[before % (sizeof others / sizeof *others)], HATCH_SPACING * COARSE, x, y, width, height);
+        hatch(paint, others[before % (sizeof others / sizeof *others)], COARSE, x, y, width, height);
     tn_paint_rectangle(paint, x, y, width, height);
-    tn_paint_line_width(paint, role == TN_FILL_SOLID ? TN_LINE_EDGE : TN_LINE_HAIR);
+    tn_paint_layer(paint, TN_LAYER_AREA);
+    tn_paint_weight(paint, role == TN_FILL_SOLID ? TN_WEIGHT_THIN : TN_WEIGHT_HATCH);
     tn_paint_stroke(paint);
+}
+
+/* The first value of a choice is plain, the others are hatched. */
+static tn_hatch choice_hatch(uint32_t number)
+{
+    static const tn_hatch hatches[] = {PLAIN,          TN_HATCH_DIAGONAL, TN_HATCH_FALLING, TN_HATCH_CROSSED,
+                                       TN_HATCH_LEVEL, TN_HATCH_UPRIGHT,  TN_HATCH_TILES,   TN_HATCH_DOTTED};
+    return hatches[number % (sizeof hatches / sizeof *hatches)];
 }
 
 /* Pale, so that black lettering is read on all; past the last they begin anew, hatched. */
@@ -241,11 +196,12 @@ void tn_draw_tone(tn_paint *paint, const tn_draw_roles *roles, uint32_t value, d
     if (roles->tone == TN_NO_FIELD)
         return;
     const double *tone = tones[value % count];
+    tn_paint_layer(paint, TN_LAYER_AREA_HATCH);
     tn_paint_colour(paint, tone[0], tone[1], tone[2]);
     tn_paint_rectangle(paint, x, y, width, height);
     tn_paint_fill(paint);
     tn_paint_colour(paint, 0.45, 0.45, 0.45);
-    hatch(paint, (hatching)(value / count % HATCHINGS), HATCH_SPACING * COARSE, x, y, width, height);
+    hatch(paint, choice_hatch(value / count), COARSE, x, y, width, height);
     tn_paint_colour(paint, 0, 0, 0);
 }
 
@@ -255,7 +211,7 @@ void tn_draw_hatch(tn_paint *paint, const tn_draw_roles *roles, uint32_t value, 
     if (roles->hatch == TN_NO_FIELD)
         return;
     tn_paint_colour(paint, 0.6, 0.6, 0.6);
-    hatch(paint, (hatching)(value % HATCHINGS), HATCH_SPACING * COARSE, x, y, width, height);
+    hatch(paint, choice_hatch(value), COARSE, x, y, width, height);
     tn_paint_colour(paint, 0, 0, 0);
 }
 
@@ -292,6 +248,7 @@ void tn_draw_inside(tn_paint *paint, const char *text, double size, bool hatched
 {
     inside set = set_inside(paint, text, size, width, height);
     tn_paint_save(paint);
+    tn_paint_layer(paint, TN_LAYER_ROOM);
     tn_paint_translate(paint, x + width / 2, y + height / 2);
     if (set.upright)
         tn_paint_rotate(paint, -3.14159265358979323846 / 2);
