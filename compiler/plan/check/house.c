@@ -315,6 +315,8 @@ static bool asks_house(const tn_ast_expr *expr)
         asks |= asks_house(part);
     for (TN_EACH(const tn_ast_expr, test, expr->tests))
         asks |= asks_house(test);
+    for (TN_EACH(const tn_ast_expr, idle, expr->idle)) /* with another value of a param they are asked */
+        asks |= asks_house(idle);
     return asks;
 }
 
