@@ -87,7 +87,7 @@ static void draw_dimensions(tn_paint *paint)
 static void draw_page(tn_paint *paint)
 {
     static const double dash = 3;
-    const tn_drawn_view view = {"Ground floor", 5, 5, 460, 245, {10, 240}};
+    const tn_drawn_view view = {"Ground floor", 5, 5, 460, 245, {10, 240}, 1};
     tn_paint_view_begin(paint, &view);
     draw_hatches(paint);
     draw_symbols(paint);

@@ -204,7 +204,7 @@ static const tn_option options[] = {
         "a "
         "/ at its end) gets all of them; may be repeated"),
     LIST("view", 0, "VIEW", views,
-         "what is drawn: plan:STOREY, section:x=LENGTH, section:y=LENGTH, elevation:SIDE, axonometric or sheet (all of "
+         "what is drawn: plan:STOREY, plan:roof, section:x=LENGTH, section:y=LENGTH, elevation:SIDE, axonometric or sheet (all of "
          "these, the default); may be repeated"),
     TEXT("cut", 0, "STOREY", cut, "lift off what is above STOREY in the axonometric view"),
     CHOICE("furnish", 0, "WORD", furnish, "yes|no", "draw what stands in the rooms (the default), or not"),

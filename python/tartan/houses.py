@@ -194,7 +194,7 @@ class House:
              bare: bool = False, azimuth: Optional[float] = None, elevation: Optional[float] = None, scale: int = 0,
              dpi: int = 0, progress: Progress = None) -> bytes:
         """The house as a file in memory: json, rooms, parts (CSV), obj, ply, glb, ifc, dxf, svg, png or pdf. views:
-        "plan:STOREY", "section:x=LENGTH", "elevation:SIDE", "axonometric", "sheet"."""
+        "plan:STOREY", "plan:roof", "section:x=LENGTH", "elevation:SIDE", "axonometric", "sheet"."""
         if format not in FORMATS:
             raise ValueError(f"houses are {', '.join(FORMATS)}, not {format!r}")
         drawing = ffi.new("tartan_house_drawing *", lib.tartan_house_drawing_init())

@@ -13,18 +13,37 @@ done
 said=(--project 'Ten houses' --date 2026-11-30 --revision B --north 90)
 "$TARTAN" house row-houses '#2:9001' "${said[@]}" -o "$scratch/said.svg" -o "$scratch/said.dxf" || fail 'no title block'
 is 'what is said' "$(grep -o '>\(Ten houses\|date 2026-11-30\|revision B\|N\|[a-z]* elevation, [a-z]*\)<' "$scratch/said.svg" | LC_ALL=C sort | uniq -c | tr -s ' \n' ' ')" \
-    ' 2 >N< 1 >Ten houses< 1 >back elevation, west< 1 >date 2026-11-30< 1 >front elevation, east< 1 >left elevation, north< 1 >revision B< 1 >right elevation, south< '
+    ' 3 >N< 1 >Ten houses< 1 >back elevation, west< 1 >date 2026-11-30< 1 >front elevation, east< 1 >left elevation, north< 1 >revision B< 1 >right elevation, south< '
 is 'the sheet with it' "$(python3 -B "$tests/house_drawn.py" "$scratch/said.svg" && echo fine)" fine
 # In a DXF the title block is on the layout (67 and 1), the arrow a block in model space.
 is 'a DXF says it' "$(tr -d '\r' <"$scratch/said.dxf" | grep -c '^\(Ten houses\|date 2026-11-30\|revision B\)$')" 3
-is 'its arrow' "$(tr -d '\r' <"$scratch/said.dxf" | grep -A12 '^INSERT$' | grep -c '^NORTH$')" 2
+is 'its arrow' "$(tr -d '\r' <"$scratch/said.dxf" | grep -A12 '^INSERT$' | grep -c '^NORTH$')" 3
 "$TARTAN" house row-houses '#2:9001' --view plan:ground "${said[@]}" -o "$scratch/said.svg" || fail 'no view'
 is 'one view says it' "$(grep -c '>Ten houses, 2026-11-30, revision B<' "$scratch/said.svg")" 1
 is 'nothing is said by itself' "$(grep -c '>\(date.*\|revision.*\|N\)<' "$scratch/one.svg")" 0
 "$TARTAN" house row-houses '#2:9001' --north 90 -o "$scratch/said.json" 2>"$scratch/out" && fail 'north of no drawing'
 is 'north of no drawing' "$(sed -n 1p "$scratch/out")" 'error[E0904]: --north is about drawings, and no file is one'
-# Small scales leave less room: marks of sections, too, stand apart from dimensions.
 cottage="14' none room:14' porch:5' | 10' none room:14' porch:5' | 10' lean-to:7' room:14' none ; 1 2 shed(back,4:12) 1 ; living bedroom porch-deck | stair stair porch-deck | bath kitchen bedroom"
+# The plan of a roof: of each plane its slope, and where two meet: a ridge, and four hips at 45 degrees.
+sed "s/gable(9:12)/gable(9:12) | hip(9:12, eaves 1'6\")/" "$here/../../stdlib/cottage.plan" >"$scratch/hip.plan"
+hip=${cottage/shed(back,4:12)/hip(9:12,eaves-1\'6\")}
+"$TARTAN" house "$scratch/hip.plan" "$hip" --view plan:roof -o "$scratch/roof.svg" -o "$scratch/roof.dxf" || fail 'no roof'
+is 'slopes of a hip' "$(grep -o '>\(9:12\|flat\)<' "$scratch/roof.svg" | LC_ALL=C sort | uniq -c | tr -s ' \n' ' ')" ' 4 >9:12< 2 >flat< '
+is 'its size' "$(grep -c ">37'-8\"<" "$scratch/roof.svg")" 1
+is 'its hips' "$(tr -d '\r' <"$scratch/roof.dxf" | python3 -c '
+import sys
+words = sys.stdin.read().split("\n")
+hips = 0
+pairs = list(zip(words[::2], words[1::2]))
+starts = [i for i, pair in enumerate(pairs) if pair[0].strip() == "0"] + [len(pairs)]
+for a, b in zip(starts, starts[1:]):
+    if pairs[a][1] not in ("LINE", "LWPOLYLINE") or "A-ROOF" not in [value for _, value in pairs[a:b]] and "A-ROOF-SECT" not in [value for _, value in pairs[a:b]]:
+        continue
+    x = [float(value) for code, value in pairs[a:b] if code.strip() in ("10", "11")]
+    y = [float(value) for code, value in pairs[a:b] if code.strip() in ("20", "21")]
+    hips += sum(abs(abs(x[i + 1] - x[i]) - abs(y[i + 1] - y[i])) < 1e-3 and abs(x[i + 1] - x[i]) > 100 for i in range(len(x) - 1))
+print(hips)')" 4
+# Small scales leave less room: marks of sections, too, stand apart from dimensions.
 "$TARTAN" house cottage "$cottage" --scale 192 -o "$scratch/house.svg" 2>"$scratch/said" || fail "no cottage: $(cat "$scratch/said")"
 is 'a cottage at 1/16"' "$(python3 -B "$tests/house_drawn.py" "$scratch/house.svg" && echo fine)" fine
 is 'its name is whole' "$(grep -c '>one or two storeys under a gable or a shed<' "$scratch/house.svg")" 1

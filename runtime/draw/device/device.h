@@ -86,11 +86,13 @@ typedef struct tn_symbol_place {
     bool mirrored;
 } tn_symbol_place;
 
-/* A drawing to scale: its frame on the page, and where its own origin stands, from which it is measured. */
+/* A drawing to scale: its frame on the page, and where its own origin stands, from which it is measured. smaller: how
+ * many times smaller than the others of the page it is; 1: as large. */
 typedef struct tn_drawn_view {
     const char *name;
     double x, y, width, height;
     double origin[2];
+    double smaller;
 } tn_drawn_view;
 
 /* A length that is given: its ends, and those of the line that shows it. */

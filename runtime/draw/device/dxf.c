@@ -642,11 +642,17 @@ static tn_status end_dimension(tn_device *device)
 
 /* ---- views */
 
+/* 1:scale of a view. */
+static double scale_of(const dxf *d, const tn_drawn_view *view)
+{
+    return d->content.options.scale * view->smaller;
+}
+
 /* Views stand in model space as they do on the sheet, but for their origins, which are whole steps apart. */
 static mapping map_view(dxf *d, const tn_drawn_view *view)
 {
     const tn_dxf_options *options = &d->content.options;
-    mapping by = {.scale = tn_dxf_paper_unit(options) * options->scale, .from = {view->origin[0], view->origin[1]}};
+    mapping by = {.scale = tn_dxf_paper_unit(options) * scale_of(d, view), .from = {view->origin[0], view->origin[1]}};
     double step = options->feet ? GRID_INCH : GRID_MM;
     if (d->viewport_count == 0)
         memcpy(d->first_origin, view->origin, sizeof d->first_origin);
@@ -691,7 +697,7 @@ static tn_status begin_view(tn_device *device, const tn_drawn_view *view)
     map(&d->sheet, view->x + view->width, view->y, corners + 2);
     map(&model, view->x, view->y + view->height, low);
     d->now.entities = &d->viewports;
-    put_viewport(d, ++d->viewport_count + 1, corners, low, d->content.options.scale);
+    put_viewport(d, ++d->viewport_count + 1, corners, low, scale_of(d, view));
     widen(d, corners);
     widen(d, corners + 2);
     d->now = model;

@@ -42,6 +42,7 @@ static tn_camera camera_of(const tn_aspect *aspect)
     double width = tn_camera_default().width;
     switch (aspect->kind) {
     case TN_ASPECT_PLAN:
+    case TN_ASPECT_ROOF:
         return (tn_camera){90, 90, width};
     case TN_ASPECT_SECTION_X:
         return (tn_camera){0, 0, width};
@@ -79,6 +80,9 @@ static void write_title(const tn_house *house, const tn_aspect *aspect, char *te
             sizeof name, name);
         snprintf(text, size, "plan, %s", name);
         return;
+    case TN_ASPECT_ROOF:
+        snprintf(text, size, "plan, roof");
+        return;
     case TN_ASPECT_SECTION_X:
     case TN_ASPECT_SECTION_Y:
         snprintf(text, size, "section %c = %s%s", aspect->kind == TN_ASPECT_SECTION_X ? 'x' : 'y',
@@ -98,7 +102,7 @@ static void drop_parts(tn_blocks *blocks, const tn_aspect *aspect)
     size_t kept = 0;
     for (size_t i = 0; i < blocks->count; i++) {
         tn_solid_kind kind = blocks->items[i].kind;
-        bool plan = aspect->kind == TN_ASPECT_PLAN;
+        bool plan = aspect->kind == TN_ASPECT_PLAN || aspect->kind == TN_ASPECT_ROOF;
         if ((kind == TN_SOLID_LEAF && plan) || (kind == TN_SOLID_ITEM && (plan || aspect->bare)))
             continue;
         blocks->items[kept++] = blocks->items[i];
@@ -233,6 +237,8 @@ static bool misses(const tn_house *house, const tn_aspect *aspect, const tn_bloc
 {
     if (aspect->kind == TN_ASPECT_PLAN)
         return !tn_house_has_storey(house, aspect->storey);
+    if (aspect->kind == TN_ASPECT_ROOF)
+        return house->cell_count == 0;
     return (aspect->kind == TN_ASPECT_SECTION_X || aspect->kind == TN_ASPECT_SECTION_Y) && blocks->cut_count == 0;
 }
 
@@ -245,6 +251,8 @@ tn_status tn_house_projection_mark(const tn_house *house, const tn_mark_style *s
     switch (projection->aspect.kind) {
     case TN_ASPECT_AXONOMETRIC:
         return TN_OK;
+    case TN_ASPECT_ROOF:
+        return tn_marks_roof(house, projection->low, projection->high, style, &projection->marks, error);
     case TN_ASPECT_PLAN:
         return tn_marks_plan(house, projection->aspect.storey, &own, &projection->marks, error);
     default:

@@ -28,6 +28,7 @@ extern const uint32_t tn_solid_groups[TN_SOLID_COUNT];
 
 typedef enum tn_aspect_kind {
     TN_ASPECT_PLAN,      /* cut 4' above the floor of a storey, or in the middle of a lower one; the front is below */
+    TN_ASPECT_ROOF,      /* all of it from above, likewise */
     TN_ASPECT_SECTION_X, /* what lies left of x = at, seen from the right */
     TN_ASPECT_SECTION_Y, /* what lies behind y = at, seen from the front */
     TN_ASPECT_ELEVATION,

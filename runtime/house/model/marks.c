@@ -50,15 +50,19 @@ void tn_marks_circle(tn_marks *marks, tn_mark_layer layer, double u, double v, d
     add(marks, (tn_mark){.kind = TN_MARK_CIRCLE, .layer = layer, .u0 = u, .v0 = v, .u1 = u + radius, .v1 = v});
 }
 
-void tn_marks_north(tn_marks *marks, double u, double v, double radius, double degrees)
+#define NORTH_OUT 5.5 /* in the size of lettering: where chains of dimensions would meet */
+#define NORTH_RADIUS 3.4
+
+void tn_marks_north(tn_marks *marks, const double high[2], const tn_mark_style *style)
 {
+    double l = style->lettering, u = high[0] + NORTH_OUT * l, v = high[1] + NORTH_OUT * l;
     add(marks, (tn_mark){.kind = TN_MARK_NORTH,
                          .layer = TN_MARK_TAG,
                          .u0 = u,
                          .v0 = v,
-                         .u1 = u + radius,
+                         .u1 = u + NORTH_RADIUS * l,
                          .v1 = v,
-                         .high = fmod(degrees, 360)});
+                         .high = fmod(*style->north, 360)});
 }
 
 void tn_marks_item(tn_marks *marks, const tn_marked_item *item, double u0, double v0, double u1, double v1)

@@ -19,6 +19,7 @@ typedef enum tn_mark_layer {
     TN_MARK_TAG,     /* of doors and windows */
     TN_MARK_SECTION, /* where the house is cut */
     TN_MARK_FURNITURE,
+    TN_MARK_ROOF, /* how it falls */
     TN_MARK_LAYERS
 } tn_mark_layer;
 
@@ -71,11 +72,12 @@ typedef struct tn_section_place {
 /* How the marks of a drawing are written. lettering: the size of what is written, whose capitals are 2.5 mm high on
  * paper. us: lengths in feet and inches, areas in square feet, rooms numbered from 101; otherwise in metres, or in
  * millimetres if the form's author writes these, in square metres, and from 0.01. coarse: the scale is too small for
- * tags, and for dimensions of openings. sections: what is shown in plans. north: where it is on plans, in degrees from
+ * tags, and for dimensions of openings. undimensioned: a plan of the
+ * roof has no dimensions. sections: what is shown in plans. north: where it is on plans, in degrees from
  * above, clockwise; or NULL. */
 typedef struct tn_mark_style {
     double lettering;
-    bool us, coarse, bare;
+    bool us, coarse, bare, undimensioned;
     const double *north;
     const tn_section_place *sections;
     size_t section_count;
@@ -100,7 +102,8 @@ void tn_marks_leaf(tn_marks *marks, double u0, double v0, double u1, double v1, 
 void tn_marks_text(tn_marks *marks, tn_mark_layer layer, double u, double v, double high, bool upright,
                    const char *text);
 
-void tn_marks_north(tn_marks *marks, double u, double v, double radius, double degrees);
+/* Where north is on a plan that reaches so far: beyond its upper right corner. style->north: there. */
+void tn_marks_north(tn_marks *marks, const double high[2], const tn_mark_style *style);
 void tn_marks_circle(tn_marks *marks, tn_mark_layer layer, double u, double v, double radius);
 
 void tn_marks_item(tn_marks *marks, const tn_marked_item *item, double u0, double v0, double u1, double v1);
@@ -117,6 +120,10 @@ struct tn_taken;
 /* ---- marks_items.c: what stands in the rooms of a storey, as it is drawn; taken: turned as the plan is. TN_MEMORY. */
 tn_status tn_marks_items(const tn_house *house, uint32_t storey, const struct tn_taken *taken, tn_marks *marks,
                          tn_error *error);
+
+/* Those of the plan of the roof, which lies between low and high. TN_MEMORY. */
+tn_status tn_marks_roof(const tn_house *house, const double low[2], const double high[2], const tn_mark_style *style,
+                        tn_marks *marks, tn_error *error);
 
 /* Those of what is seen from the side: the ground and the levels, left of what lies between low and high; at its right
  * the heights of rooms if it is cut. TN_MEMORY. */

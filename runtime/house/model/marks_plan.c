@@ -337,15 +337,6 @@ static void put_sections(const tn_planned *p, const double low[2], const double 
     }
 }
 
-#define NORTH_RADIUS 3.4 /* with its letter, in the size of lettering */
-
-/* An arrow to the north, where the chains at the right and at the back would meet. */
-static void put_north(const tn_mark_style *style, const double high[2], tn_marks *marks)
-{
-    double l = style->lettering, out = FIRST_CHAIN * l;
-    tn_marks_north(marks, high[0] + out, high[1] + out, NORTH_RADIUS * l, *style->north);
-}
-
 static bool put_dimensions(const tn_planned *p, tn_marks *marks)
 {
     const tn_house *house = p->house;
@@ -364,7 +355,7 @@ static bool put_dimensions(const tn_planned *p, tn_marks *marks)
         dimension_side(p, &plan_sides[i], low, high, places, marks);
     put_sections(p, low, high, marks);
     if (p->style->north)
-        put_north(p->style, high, marks);
+        tn_marks_north(marks, high, p->style);
     free(places);
     return true;
 }

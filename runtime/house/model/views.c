@@ -11,6 +11,14 @@ static const char *storey_name(const tn_house_form *form, uint32_t storey)
     return tn_text(form->module, form->module->STOREY_records[form->record->storey_first + storey].name);
 }
 
+static bool has_storey(const tn_house_form *form, const char *name)
+{
+    for (uint32_t k = 0; k < form->record->storey_count; k++)
+        if (strcmp(storey_name(form, k), name) == 0)
+            return true;
+    return false;
+}
+
 static tn_status find_storey(const tn_house_form *form, const char *name, const char *option, uint32_t *storey,
                              tn_error *error)
 {
@@ -34,8 +42,9 @@ static tn_status find_storey(const tn_house_form *form, const char *name, const 
 static tn_status bad_view(const char *text, tn_error *error)
 {
     tn_status status = tn_fail(error, TN_INVALID, E_USAGE, "--view: there is no drawing `%.60s`", text);
-    tn_error_help(error, "write plan:STOREY, section:x=LENGTH, section:y=LENGTH, elevation:front (back, left, right), "
-                         "axonometric, or sheet");
+    tn_error_help(
+        error, "write plan:STOREY, plan:roof, section:x=LENGTH, section:y=LENGTH, elevation:front (back, left, right), "
+               "axonometric, or sheet");
     return status;
 }
 
@@ -101,8 +110,8 @@ static int64_t clear_of_walls(const tn_house *house, tn_aspect_kind kind, int64_
     return best;
 }
 
-/* Everything of a sheet: plans, sections through the middle or beside it, elevations, the house with its roof and
- * without. */
+/* Everything of a sheet: plans, that of the roof, sections through the middle or beside it, elevations, the house with
+ * its roof and without. */
 static size_t add_sheet(const tn_house *house, const tn_aspect *usual, tn_aspect *aspects, size_t room)
 {
     size_t count = 0;
@@ -113,12 +122,14 @@ static size_t add_sheet(const tn_house *house, const tn_aspect *usual, tn_aspect
         high = i == 0 || at->y1 > high ? at->y1 : high;
         width = at->x1 > width ? at->x1 : width;
     }
-    for (uint32_t k = 0; k < house->form->record->storey_count && count + 8 < room; k++) {
+    for (uint32_t k = 0; k < house->form->record->storey_count && count + 9 < room; k++) {
         aspects[count] = *usual;
         aspects[count].kind = TN_ASPECT_PLAN;
         aspects[count].storey = k;
         count += tn_house_has_storey(house, k);
     }
+    aspects[count] = *usual;
+    aspects[count++].kind = TN_ASPECT_ROOF;
     tn_aspect section = *usual, roofless = *usual;
     section.kind = TN_ASPECT_SECTION_X;
     section.at = house->trays ? clear_of_walls(house, section.kind, width / 4) : 0;
@@ -141,6 +152,10 @@ static size_t add_sheet(const tn_house *house, const tn_aspect *usual, tn_aspect
 
 static tn_status read_view(const tn_house *house, const char *text, tn_aspect *aspect, tn_error *error)
 {
+    if (strcmp(text, "plan:roof") == 0 && !has_storey(house->form, "roof")) {
+        aspect->kind = TN_ASPECT_ROOF;
+        return TN_OK;
+    }
     if (strncmp(text, "plan:", 5) == 0) {
         aspect->kind = TN_ASPECT_PLAN;
         return find_storey(house->form, text + 5, "--view", &aspect->storey, error);

@@ -4,7 +4,7 @@
 
 #include "runtime/house/model/aspect.h"
 
-/* Texts are plan:STOREY, section:x=LENGTH, section:y=LENGTH, elevation:SIDE, axonometric, or sheet: all that make a
+/* Texts are plan:STOREY, plan:roof (unless a storey has that name), section:x=LENGTH, section:y=LENGTH, elevation:SIDE, axonometric, or sheet: all that make a
  * sheet, as if there are none. */
 typedef struct tn_views {
     const char *const *items;

@@ -193,6 +193,7 @@ static const mark_pen pens[TN_MARK_LAYERS] = {
     [TN_MARK_TAG] = {TN_LAYER_SYMBOL, TN_WEIGHT_THIN, 0, 0},
     [TN_MARK_SECTION] = {TN_LAYER_SYMBOL, TN_WEIGHT_CUT, 0, 0},
     [TN_MARK_FURNITURE] = {TN_LAYER_FURNITURE, TN_WEIGHT_THIN, 0, 0},
+    [TN_MARK_ROOF] = {TN_LAYER_SYMBOL, TN_WEIGHT_THIN, 0, 0},
 };
 
 /* A leaf that stands open upwards from its hinge, and the quarter through which it goes, to its right. */
@@ -289,7 +290,8 @@ static void paint_text(const tn_drawing_frame *f, const tn_mark *m)
     tn_paint_translate(f->paint, place_u(f, m->u0), place_v(f, m->v0));
     if (m->upright)
         tn_paint_rotate(f->paint, -M_PI / 2);
-    if ((m->layer == TN_MARK_NAME || m->layer == TN_MARK_STAIR) && tn_paint_covers(f->paint)) {
+    bool veiled = m->layer == TN_MARK_NAME || m->layer == TN_MARK_STAIR || m->layer == TN_MARK_ROOF;
+    if (veiled && tn_paint_covers(f->paint)) {
         tn_paint_translucent(f->paint, 1, 1, 1, 0.72);
         tn_paint_rectangle(f->paint, -half, -0.6 * high, 2 * half, 1.2 * high);
         tn_paint_fill(f->paint);

@@ -19,8 +19,8 @@
 #define LEGIBLE_FEET 96u
 #define TN_SECTIONS_MOST 26 /* they have letters */
 #define FOOT_GAP 12.0
-#define SMALLER_IN_SPACE                                                                                               \
-    2u /* nothing is measured in views in space: where room is short, their scale is so much smaller */
+/* Where room is short, the scale of views in which little is measured is so much smaller. */
+#define SMALLER 2u
 #define VIEW_WIDTH 820.0 /* the most that one drawing takes, in points */
 #define VIEW_HEIGHT 620.0
 
@@ -33,7 +33,7 @@ typedef struct sheet {
     tn_mark_style style;
     uint32_t scale;
     double points;        /* a nanometre, in points */
-    uint32_t in_space;    /* how much smaller views in space are */
+    uint32_t smaller;     /* how much smaller views in space and the plan of the roof are */
     double width, height; /* of the page */
     double foot;          /* room for tables, notes, the title block or the scale bar */
     tn_sheet_tables tables;
@@ -93,11 +93,9 @@ static void clear(sheet *s)
 /* What those of a sheet are. */
 static void name_kinds(sheet *s)
 {
-    static const char *const kinds[] = {[TN_ASPECT_PLAN] = "plans",
-                                        [TN_ASPECT_SECTION_X] = "sections",
-                                        [TN_ASPECT_SECTION_Y] = "sections",
-                                        [TN_ASPECT_ELEVATION] = "elevations",
-                                        [TN_ASPECT_AXONOMETRIC] = "views"};
+    static const char *const kinds[] = {
+        [TN_ASPECT_PLAN] = "plans",         [TN_ASPECT_ROOF] = "plans",           [TN_ASPECT_SECTION_X] = "sections",
+        [TN_ASPECT_SECTION_Y] = "sections", [TN_ASPECT_ELEVATION] = "elevations", [TN_ASPECT_AXONOMETRIC] = "views"};
     size_t used = 0;
     for (size_t i = 0; i < s->drawing->count; i++) {
         const char *kind = kinds[s->drawing->aspects[i].kind];
@@ -123,27 +121,78 @@ static void say_all(sheet *s)
                                 .style = style};
 }
 
+static bool is_section(const tn_aspect *aspect)
+{
+    return aspect->kind == TN_ASPECT_SECTION_X || aspect->kind == TN_ASPECT_SECTION_Y;
+}
+
+static bool may_be_smaller(const tn_aspect *aspect)
+{
+    return aspect->kind == TN_ASPECT_AXONOMETRIC || aspect->kind == TN_ASPECT_ROOF;
+}
+
+/* Where a side of the house looks if it is known where north is. On plans the front is below and the left at the right.
+ */
+static const char *compass_of(tn_house_side side, double north)
+{
+    static const char *const points[] = {"north", "north-east", "east", "south-east",
+                                         "south", "south-west", "west", "north-west"};
+    static const double sides[] = {
+        [TN_HOUSE_BACK] = 0, [TN_HOUSE_LEFT] = 90, [TN_HOUSE_FRONT] = 180, [TN_HOUSE_RIGHT] = 270};
+    double turn = fmod(sides[side] - north, 360);
+    return points[(size_t)floor((turn + 360 + 22.5) / 45) % 8];
+}
+
+#define CAPTION_MAX 128
+
+/* A drawing's title, with the letter of a section, the point of the compass of an elevation, and the scale if it is not
+ * that of the sheet. */
+static void write_caption(const sheet *s, size_t i, char caption[CAPTION_MAX])
+{
+    const tn_aspect *aspect = &s->drawing->aspects[i];
+    const char *title = s->drawn[i].projection.title;
+    char scale[32];
+    size_t section = 0;
+    for (size_t k = 0; k < i; k++)
+        section += is_section(&s->drawing->aspects[k]);
+    if (is_section(aspect) && section < s->style.section_count) {
+        char letter = s->sections[section].letter;
+        snprintf(caption, CAPTION_MAX, "%c-%c  %s", letter, letter, title);
+    } else if (aspect->kind == TN_ASPECT_ELEVATION && s->style.north) {
+        snprintf(caption, CAPTION_MAX, "%s, %s", title, compass_of(aspect->side, *s->style.north));
+    } else if (s->smaller > 1 && may_be_smaller(aspect)) {
+        tn_scale_write(s->scale * s->smaller, s->metric, scale, sizeof scale);
+        snprintf(caption, CAPTION_MAX, "%s, %s", title, scale);
+    } else
+        snprintf(caption, CAPTION_MAX, "%s", title);
+}
+
 /* ---- laying out */
+
+#define BOLD_WIDTH 1.15 /* of bold lettering, in that of the other */
 
 /* A nanometre of a drawing, in points. */
 static double points_of(const sheet *s, const tn_house_drawn *d)
 {
-    return d->projection.aspect.kind == TN_ASPECT_AXONOMETRIC ? s->points / s->in_space : s->points;
+    return may_be_smaller(&d->projection.aspect) ? s->points / s->smaller : s->points;
 }
 
-static double wide(const sheet *s, const tn_house_drawn *d)
+static double wide_of(const sheet *s, const tn_house_drawn *d)
 {
     return (d->high[0] - d->low[0]) * points_of(s, d);
+}
+
+/* Of a drawing with its caption. */
+static double wide(const sheet *s, size_t i)
+{
+    char caption[CAPTION_MAX];
+    write_caption(s, i, caption);
+    return fmax(wide_of(s, &s->drawn[i]), BOLD_WIDTH * tn_mark_width(caption) * TN_LETTERING);
 }
 
 static double high(const sheet *s, const tn_house_drawn *d)
 {
     return (d->high[1] - d->low[1]) * points_of(s, d);
-}
-
-static bool is_section(const tn_aspect *aspect)
-{
-    return aspect->kind == TN_ASPECT_SECTION_X || aspect->kind == TN_ASPECT_SECTION_Y;
 }
 
 /* Plans show where the sections of the sheet are cut, which have letters in their order. */
@@ -160,6 +209,30 @@ static void letter_sections(sheet *s)
     }
 }
 
+/* What is written is of one size on paper. A plan that is smaller than the others has no dimensions. */
+static tn_status mark(sheet *s, tn_house_drawn *d, tn_error *error)
+{
+    tn_mark_style style = s->style;
+    bool smaller = s->smaller > 1 && may_be_smaller(&d->projection.aspect);
+    style.lettering *= smaller ? s->smaller : 1;
+    style.undimensioned = smaller;
+    tn_status status = tn_house_projection_mark(s->house, &style, &d->projection, error);
+    tn_house_projection_extent(&d->projection, d->low, d->high);
+    return status;
+}
+
+/* How much smaller those are that may be; without marks views in space stay as they are. */
+static tn_status set_smaller(sheet *s, uint32_t smaller, tn_error *error)
+{
+    tn_status status = TN_OK;
+    bool same = s->smaller == smaller;
+    s->smaller = smaller;
+    for (size_t i = 0; !same && status == TN_OK && i < s->drawing->count; i++)
+        if (s->drawing->aspects[i].kind == TN_ASPECT_ROOF)
+            status = mark(s, &s->drawn[i], error);
+    return status;
+}
+
 static tn_status mark_all(sheet *s, uint32_t scale, tn_error *error)
 {
     tn_status status = TN_OK;
@@ -169,11 +242,8 @@ static tn_status mark_all(sheet *s, uint32_t scale, tn_error *error)
     s->block.points = s->points;
     s->style.lettering = TN_LETTERING / s->points;
     s->style.coarse = scale > (s->metric ? LEGIBLE_METRIC : LEGIBLE_FEET);
-    for (size_t i = 0; status == TN_OK && i < s->drawing->count; i++) {
-        tn_house_drawn *d = &s->drawn[i];
-        status = tn_house_projection_mark(s->house, &s->style, &d->projection, error);
-        tn_house_projection_extent(&d->projection, d->low, d->high);
-    }
+    for (size_t i = 0; status == TN_OK && i < s->drawing->count; i++)
+        status = mark(s, &s->drawn[i], error);
     return status;
 }
 
@@ -183,7 +253,7 @@ static size_t measure_row(const sheet *s, size_t first, double most, double *acr
     size_t count = 0;
     *across = *down = 0;
     for (size_t i = first; i < s->drawing->count; i++, count++) {
-        double w = wide(s, &s->drawn[i]) + (count ? GAP : 0);
+        double w = wide(s, i) + (count ? GAP : 0);
         if (count && *across + w > most)
             break;
         *across += w;
@@ -209,7 +279,7 @@ static double top_of(const sheet *s)
 static bool is_alone_along_x(const sheet *s, size_t i)
 {
     const tn_aspect *a = &s->drawing->aspects[i];
-    bool along = a->kind == TN_ASPECT_PLAN || a->kind == TN_ASPECT_SECTION_Y ||
+    bool along = a->kind == TN_ASPECT_PLAN || a->kind == TN_ASPECT_ROOF || a->kind == TN_ASPECT_SECTION_Y ||
                  (a->kind == TN_ASPECT_ELEVATION && a->side == TN_HOUSE_FRONT);
     bool first = i == 0 || s->drawn[i - 1].y < s->drawn[i].y;
     bool last = i + 1 == s->drawing->count || s->drawn[i].y < s->drawn[i + 1].y;
@@ -244,9 +314,9 @@ static void set_rows(sheet *s, double room, double wrap, double *most, double *d
         size_t count = measure_row(s, first, wrap, &across, &row);
         double gap = count > 1 ? (room - across) / (double)(count + 1) : (room - across) / 2, x = MARGIN + gap;
         for (size_t i = first; i < first + count; i++) {
-            s->drawn[i].x = x;
+            s->drawn[i].x = x + (wide(s, i) - wide_of(s, &s->drawn[i])) / 2;
             s->drawn[i].y = y + row;
-            x += wide(s, &s->drawn[i]) + GAP + (count > 1 ? gap : 0);
+            x += wide(s, i) + GAP + (count > 1 ? gap : 0);
         }
         *most = fmax(*most, across);
         y += row + CAPTION + GAP;
@@ -266,22 +336,36 @@ static void set_foot(sheet *s, double width)
               NOTE_LEADING * NOTE_LINES * (double)s->drawing->note_count;
 }
 
-/* Does everything fit on a page of this size, with views in space so much smaller? */
-static bool fits_so(sheet *s, double width, double height, uint32_t in_space)
+/* Does everything fit on a page of this size, with some views so much smaller? */
+static bool fits_so(sheet *s, const tn_paper *paper, uint32_t smaller, tn_status *status, tn_error *error)
 {
-    set_foot(s, width);
-    s->in_space = in_space;
-    double most, down, room = width - 2 * MARGIN;
+    double most, down, room = paper->width - 2 * MARGIN;
+    *status = set_smaller(s, smaller, error);
+    if (*status != TN_OK)
+        return false;
+    set_foot(s, paper->width);
     set_rows(s, room, room, &most, &down);
-    s->width = width;
-    s->height = height;
-    s->spare = height - MARGIN - s->foot - down;
+    s->width = paper->width;
+    s->height = paper->height;
+    s->spare = paper->height - MARGIN - s->foot - down;
     return most <= room && s->spare >= 0;
 }
 
-static bool fits(sheet *s, double width, double height)
+static bool fits(sheet *s, const tn_paper *paper, tn_status *status, tn_error *error)
 {
-    return fits_so(s, width, height, 1) || fits_so(s, width, height, SMALLER_IN_SPACE);
+    return fits_so(s, paper, 1, status, error) || (*status == TN_OK && fits_so(s, paper, SMALLER, status, error));
+}
+
+/* Is there room for each drawing by itself, without its marks, at 1:scale? Where it is not, nothing else is asked. */
+static bool may_fit(const sheet *s, const tn_paper *paper, uint32_t scale)
+{
+    for (size_t i = 0; i < s->drawing->count; i++) {
+        const tn_house_projection *p = &s->drawn[i].projection;
+        double points = TN_POINTS_PER_NM / scale / (may_be_smaller(&p->aspect) ? SMALLER : 1);
+        if ((p->high[0] - p->low[0]) * points > paper->width || (p->high[1] - p->low[1]) * points > paper->height)
+            return false;
+    }
+    return true;
 }
 
 #define WRAPS 48 /* widths of rows that are tried */
@@ -319,11 +403,13 @@ static void spread_rows(sheet *s)
 }
 
 /* Takes the smallest paper that holds everything at the scale that is set. */
-static void take_smallest(sheet *s, const tn_paper *papers, size_t count)
+static tn_status take_smallest(sheet *s, const tn_paper *papers, size_t count, tn_error *error)
 {
-    for (size_t i = 0; i < count; i++)
-        if (fits(s, papers[i].width, papers[i].height))
-            return;
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < count; i++)
+        if (fits(s, &papers[i], &status, error))
+            break;
+    return status;
 }
 
 /* Does everything fit on the paper at a scale no smaller than that? The largest such is set then, or the drawing's. */
@@ -332,10 +418,13 @@ static bool fits_scaled(sheet *s, const tn_paper *paper, uint32_t smallest, tn_s
     const uint32_t *scales;
     size_t count = tn_scale_choices(s->metric, &scales);
     for (size_t i = 0; *status == TN_OK && i < count; i++) {
+        uint32_t scale = s->drawing->scale ? s->drawing->scale : scales[i];
         if (s->drawing->scale ? i > 0 : scales[i] > smallest)
             return false;
-        *status = mark_all(s, s->drawing->scale ? s->drawing->scale : scales[i], error);
-        if (*status == TN_OK && fits(s, paper->width, paper->height))
+        if (!may_fit(s, paper, scale))
+            continue;
+        *status = mark_all(s, scale, error);
+        if (*status == TN_OK && fits(s, paper, status, error))
             return true;
     }
     return false;
@@ -364,10 +453,10 @@ static tn_status choose_paper(sheet *s, tn_error *error)
                                                             : UINT32_MAX;
         if (!fits_scaled(s, &papers[paper_order[i].paper], smallest, &status, error))
             continue;
-        take_smallest(s, papers, paper_order[i].paper + 1);
+        status = take_smallest(s, papers, paper_order[i].paper + 1, error);
         even_rows(s);
         spread_rows(s);
-        return TN_OK;
+        return status;
     }
     if (status != TN_OK)
         return status;
@@ -384,11 +473,11 @@ static tn_status choose_page(sheet *s, tn_error *error)
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && i < count; i++) {
         status = mark_all(s, s->drawing->scale ? s->drawing->scale : scales[i], error);
-        if (s->drawing->scale || (wide(s, &s->drawn[0]) <= VIEW_WIDTH && high(s, &s->drawn[0]) <= VIEW_HEIGHT))
+        if (s->drawing->scale || (wide(s, 0) <= VIEW_WIDTH && high(s, &s->drawn[0]) <= VIEW_HEIGHT))
             break;
     }
     double most, down;
-    s->width = fmax(wide(s, &s->drawn[0]), 240) + 2 * MARGIN;
+    s->width = fmax(wide(s, 0), 240) + 2 * MARGIN;
     set_rows(s, s->width - 2 * MARGIN, s->width - 2 * MARGIN, &most, &down);
     s->height = down + s->foot + MARGIN;
     return status;
@@ -396,54 +485,30 @@ static tn_status choose_page(sheet *s, tn_error *error)
 
 /* ---- painting */
 
-/* Where a side of the house looks if it is known where north is. On plans the front is below and the left at the right.
- */
-static const char *compass_of(tn_house_side side, double north)
-{
-    static const char *const points[] = {"north", "north-east", "east", "south-east",
-                                         "south", "south-west", "west", "north-west"};
-    static const double sides[] = {
-        [TN_HOUSE_BACK] = 0, [TN_HOUSE_LEFT] = 90, [TN_HOUSE_FRONT] = 180, [TN_HOUSE_RIGHT] = 270};
-    double turn = fmod(sides[side] - north, 360);
-    return points[(size_t)floor((turn + 360 + 22.5) / 45) % 8];
-}
-
-/* Its title, with the letter of a section, and the scale if it is not that of the sheet. *section: how many were drawn
- * so far. */
-static void paint_caption(const sheet *s, tn_paint *paint, size_t i, size_t *section)
+static void paint_caption(const sheet *s, tn_paint *paint, size_t i)
 {
     const tn_house_drawn *d = &s->drawn[i];
-    char caption[sizeof d->projection.title + 40], scale[32];
-    const char *title = d->projection.title;
-    snprintf(caption, sizeof caption, "%s", title);
-    if (is_section(&s->drawing->aspects[i]) && *section < s->style.section_count) {
-        char letter = s->sections[(*section)++].letter;
-        snprintf(caption, sizeof caption, "%c-%c  %s", letter, letter, title);
-    }
-    if (d->projection.aspect.kind == TN_ASPECT_ELEVATION && s->style.north)
-        snprintf(caption, sizeof caption, "%s, %s", title, compass_of(d->projection.aspect.side, *s->style.north));
-    if (d->projection.aspect.kind == TN_ASPECT_AXONOMETRIC && s->in_space > 1) {
-        tn_scale_write(s->scale * s->in_space, s->metric, scale, sizeof scale);
-        snprintf(caption, sizeof caption, "%s, %s", title, scale);
-    }
+    char caption[CAPTION_MAX];
+    write_caption(s, i, caption);
     tn_paint_layer(paint, TN_LAYER_TITLE);
     tn_paint_colour(paint, 0, 0, 0);
     tn_paint_face(paint, TN_LETTERING, true);
-    tn_type_line(paint, d->x + wide(s, d) / 2, d->y + CAPTION - 6, TN_ALIGN_CENTRE, caption);
+    tn_type_line(paint, d->x + wide_of(s, d) / 2, d->y + CAPTION - 6, TN_ALIGN_CENTRE, caption);
 }
 
 /* A drawing to scale, with its caption. */
-static void paint_drawing(const sheet *s, const tn_canvas *canvas, size_t i, size_t *section)
+static void paint_drawing(const sheet *s, const tn_canvas *canvas, size_t i)
 {
     const tn_house_drawn *d = &s->drawn[i];
     tn_paint *paint = tn_canvas_paint(canvas);
     double points = points_of(s, d);
     const tn_drawn_view view = {d->projection.title,  d->x,
-                                d->y - high(s, d),    wide(s, d),
-                                high(s, d) + CAPTION, {d->x - d->low[0] * points, d->y + d->low[1] * points}};
+                                d->y - high(s, d),    wide_of(s, d),
+                                high(s, d) + CAPTION, {d->x - d->low[0] * points, d->y + d->low[1] * points},
+                                s->points / points};
     tn_paint_view_begin(paint, &view);
     tn_draw_projection(canvas, d, points);
-    paint_caption(s, paint, i, section);
+    paint_caption(s, paint, i);
     tn_paint_view_end(paint);
 }
 
@@ -478,7 +543,6 @@ static void paint_sheet_foot(const sheet *s, tn_paint *paint)
 static void paint_all(const sheet *s, const tn_canvas *canvas)
 {
     tn_paint *paint = tn_canvas_paint(canvas);
-    size_t section = 0;
     tn_paint_layer(paint, TN_LAYER_TITLE);
     if (s->drawing->title && !is_sheet(s)) {
         tn_paint_face(paint, TN_NAME_LETTERING, true);
@@ -490,7 +554,7 @@ static void paint_all(const sheet *s, const tn_canvas *canvas)
                     s->width - 2 * MARGIN, s->said);
     }
     for (size_t i = 0; i < s->drawing->count && !tn_canvas_stopped(canvas); i++)
-        paint_drawing(s, canvas, i, &section);
+        paint_drawing(s, canvas, i);
     if (is_sheet(s))
         paint_sheet_foot(s, paint);
     else
@@ -502,7 +566,7 @@ tn_status tn_house_draw(const tn_house *house, const tn_solids *solids, const tn
 {
     sheet s = {.house = house,
                .drawing = drawing,
-               .in_space = 1,
+               .smaller = 1,
                .drawn = calloc(drawing->count + 1, sizeof *s.drawn),
                .metric = tn_house_length_style(house) != TN_STYLE_FEET,
                .foot = 30 + NOTE_LEADING * NOTE_LINES * (double)drawing->note_count};

@@ -350,7 +350,7 @@ static void draw_cell(const drawing *d, tn_paint *paint, const tn_drawn_plan *pl
     if (d->roles.to_scale) {
         double left = x + sides_room(d) + (d->roles.public_end == TN_NO_FIELD ? 0 : TN_MARK_ROOM);
         double above = d->extent.above * d->factor, spine = y + above, bottom = spine + d->extent.below * d->factor;
-        const tn_drawn_view view = {plan->number, x, y, d->cell_width, height, {left, spine}};
+        const tn_drawn_view view = {plan->number, x, y, d->cell_width, height, {left, spine}, 1};
         tn_paint_view_begin(paint, &view);
         if (tn_draw_two_sided(&d->roles) && plan->length > 0)
             tn_draw_sides(paint, &d->roles, x, spine, above, bottom - spine);

@@ -176,8 +176,8 @@ static void fills_solidly(void **state)
 static void stands_in_model_space(void **state)
 {
     static const tn_canvas_options options = {.width = 720, .height = 360, .title = "A/B", .scale = 48, .feet = true};
-    static const tn_drawn_view first = {"ground", 36, 36, 288, 288, {72, 288}},
-                               second = {"above", 360, 36, 288, 288, {400, 288}};
+    static const tn_drawn_view first = {"ground", 36, 36, 288, 288, {72, 288}, 1},
+                               second = {"above", 360, 36, 288, 288, {400, 288}, 2};
     (void)state;
     drawing d;
     begin(&d, &options, TN_PROFILE_BY_MEASURES);
@@ -200,7 +200,7 @@ static void stands_in_model_space(void **state)
     holds(written,
           "100\nAcDbEntity\n8\nA-DOOR\n370\n35\n100\nAcDbLine\n10\n0.0\n20\n0.0\n30\n0.0\n11\n48.0\n21\n48.0\n");
     holds(written,
-          "AcDbLine\n10\n216.0\n20\n0.0\n30\n0.0\n11\n217.0\n"); /* 328 points of 2/3 inch are 218.67; steps of 6 */
+          "AcDbLine\n10\n438.0\n20\n0.0\n30\n0.0\n11\n440.0\n"); /* 328 points of 4/3 inch are 437.33; steps of 6 */
     holds(written, "67\n1\n8\nA-ANNO-TTLB\n100\nAcDbText\n10\n0.5\n20\n0.5\n");
     holds(written, "40\n4.0\n41\n4.0\n68\n2\n69\n2\n12\n72.0\n22\n72.0\n"); /* a window that shows the first view */
     holds(written, "45\n192.0\n");
@@ -276,7 +276,7 @@ static void writes_dimensions(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
         const tn_canvas_options options = {.width = 720, .height = 360, .scale = 100, .feet = all[i].feet};
-        static const tn_drawn_view view = {"ground", 0, 0, 720, 360, {0, 360}};
+        static const tn_drawn_view view = {"ground", 0, 0, 720, 360, {0, 360}, 1};
         double points = all[i].inches / 100 * (all[i].feet ? 72 : MM);
         drawing d;
         begin(&d, &options, TN_PROFILE_BY_MEASURES);

@@ -354,6 +354,7 @@ static tn_status write_ifc(tn_error *error)
 static tn_status draw_dxf(tn_error *error)
 {
     static const tn_aspect aspects[] = {{.kind = TN_ASPECT_PLAN},
+                                        {.kind = TN_ASPECT_ROOF},
                                         {.kind = TN_ASPECT_SECTION_X, .at = INT64_C(1200000000)},
                                         {.kind = TN_ASPECT_ELEVATION, .side = TN_HOUSE_FRONT}};
     const tn_house_drawing drawing = {.aspects = aspects, .count = sizeof aspects / sizeof *aspects, .title = "a hut"};
