@@ -90,8 +90,10 @@ static tartan_status open_library(tartan_house_library *library, const tartan_mo
                                   const tartan_house_library_options *options, const tartan_watch *watch,
                                   tartan_error *error)
 {
-    const tn_house_settings settings = {
-        .library = options->name, .max_length = TN_HOUSE_TRAYS_DEFAULT, .plans = {.max_states = options->max_states}};
+    const tn_house_settings settings = {.library = options->name,
+                                        .max_length = TN_HOUSE_TRAYS_DEFAULT,
+                                        .max_houses = options->max_houses,
+                                        .plans = {.max_states = options->max_states}};
     tn_status status = tn_open_bytes("the module", module->bytes, module->size, false, &library->opened);
     if (status != TN_OK)
         return tn_api_first_error(&library->opened.compilation.diagnostics, status, NULL, error);

@@ -13,6 +13,7 @@ tn_house_settings tn_asked_houses(const tn_library_asked *asked)
 {
     return (tn_house_settings){.library = asked->library,
                                .max_length = tn_asked_length(asked),
+                               .max_houses = asked->max_houses,
                                .plans = tn_asked_options(asked),
                                .wheres = asked->where.items,
                                .where_count = asked->where.count};
@@ -95,7 +96,8 @@ static tn_status choose(tn_numbered *n, const char *name)
 tn_status tn_numbered_open(tn_numbered *n, tn_session *session, const tn_house_settings *settings)
 {
     tn_error error;
-    *n = (tn_numbered){.session = session, .max_states = settings->plans.max_states};
+    *n =
+        (tn_numbered){.session = session, .max_states = settings->plans.max_states, .max_houses = settings->max_houses};
     tn_status status = choose(n, settings->library);
     if (status != TN_OK)
         return status;
@@ -160,14 +162,19 @@ static tn_status report_contradiction(const tn_numbered *n, const tn_house *hous
     return status;
 }
 
-tn_status tn_numbered_judge(tn_numbered *n, const tn_house *house, tn_error *error)
+tn_status tn_numbered_keeps(tn_numbered *n, const tn_house *house, bool *kept, tn_error *error)
 {
-    bool kept = false;
     tn_status status = n->rules ? TN_OK : tn_house_rules_new(&n->form, tn_library_max(n->plans), &n->rules, error);
+    *kept = false;
     if (status == TN_OK)
         status = tn_house_rules_start(n->rules, house, error);
-    if (status == TN_OK)
-        status = tn_house_rules_keep(n->rules, n->record, &kept, error);
+    return status == TN_OK ? tn_house_rules_keep(n->rules, n->record, kept, error) : status;
+}
+
+tn_status tn_numbered_judge(tn_numbered *n, const tn_house *house, tn_error *error)
+{
+    bool kept;
+    tn_status status = tn_numbered_keeps(n, house, &kept, error);
     return status == TN_OK && !kept ? report_contradiction(n, house, error) : status;
 }
 
@@ -310,7 +317,7 @@ tn_status tn_numbered_plans_until(tn_numbered *n, tn_plan_visit *visit, void *co
 void tn_numbered_say_few(const tn_numbered *n, bool on_plan, uint64_t found, uint64_t wanted)
 {
     const char *name = tn_text(n->session->opened->module, n->record->name);
-    if (found >= wanted)
+    if (found >= wanted || n->not_all)
         return;
     if (found > 0)
         tn_session_note(n->session,
@@ -320,6 +327,10 @@ void tn_numbered_say_few(const tn_numbered *n, bool on_plan, uint64_t found, uin
         tn_session_note(
             n->session,
             "the library has no house on this plan: `tartan explain` with the plan and --library %s says why", name);
+    else if (tn_numbered_walks(n))
+        tn_session_note(n->session,
+                        "the library holds no house: none that its other clauses keep is kept by those that ask for "
+                        "walks");
     else
         tn_session_note(
             n->session,

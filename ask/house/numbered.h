@@ -14,6 +14,7 @@
 typedef struct tn_house_settings {
     const char *library; /* NULL: the only one */
     size_t max_length;
+    uint64_t max_houses; /* that are looked at one by one; 0: each question has its default */
     tn_library_options plans;
     const char *const *wheres; /* the further requirements with which the file was opened */
     size_t where_count;
@@ -44,6 +45,8 @@ typedef struct tn_numbered {
     tn_numbered_ranked ranked;
     uint32_t plans_alone; /* that were counted by themselves */
     uint32_t max_states;
+    uint64_t max_houses; /* of tn_house_settings */
+    bool not_all;        /* houses were tried, but not all: it was said how many */
 } tn_numbered;
 
 /* Close it in any case. What was wrong is said. */
@@ -108,8 +111,11 @@ tn_status tn_numbered_listing(tn_numbered *n, tn_house_listing **listing, tn_err
 tn_status tn_numbered_at(tn_numbered *n, const tn_tray *trays, uint32_t length, const mpz_t variant, tn_house *house,
                          tn_error *error);
 
-/* Asks the interpreter of rules whether the library keeps a house that was found without it: before it is shown.
- * TN_INTERNAL if it does not, as the two then contradict each other. */
+/* Asks the interpreter of rules whether the library keeps a house of the form. */
+tn_status tn_numbered_keeps(tn_numbered *n, const tn_house *house, bool *kept, tn_error *error);
+
+/* Asks it about a house that was found without it: before it is shown. TN_INTERNAL if the library does not keep it, as
+ * the two then contradict each other. */
 tn_status tn_numbered_judge(tn_numbered *n, const tn_house *house, tn_error *error);
 
 /* The number of a house among those on its plan, which is one of the library's. TN_INVALID (E1618) where the library
@@ -176,13 +182,14 @@ tn_status tn_numbered_locate(tn_numbered *n, const mpz_t rank, mpz_t plan, mpz_t
 tn_status tn_numbered_house(tn_numbered *n, const char *number, tn_house *house, tn_error *error);
 
 /* What is done with a house that is drawn, of that rank: among all, or among those on the plan; variant: always among
- * those on its plan. It may take the house, and leaves an empty one then. */
+ * those on its plan. Both are NULL if houses are tried. It may take the house, and leaves an empty one then. */
 typedef tn_status tn_sampled_house(void *context, tn_house *house, const mpz_t rank, const mpz_t variant,
                                    tn_error *error);
 
 /* Calls `use` with `wanted` different houses of the library, or of those on one plan (NULL: all plans), each drawn with
  * the same probability, in the order of their ranks; with all if there are fewer. Diverse ones are chosen among
- * twenty times as many that are drawn so, TN_DIVERSE_DRAWS at least (ask/house/diverse.h). */
+ * twenty times as many that are drawn so, TN_DIVERSE_DRAWS at least (ask/house/diverse.h). Those of all plans whose
+ * library asks for walks are tried (tried.h): each that is kept is as likely as each. */
 #define TN_DIVERSE_DRAWS 200u
 tn_status tn_numbered_sample(tn_numbered *n, const tn_plan *plan, size_t wanted, uint64_t seed, bool diverse,
                              tn_sampled_house *use, void *context, tn_error *error);

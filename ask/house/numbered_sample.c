@@ -1,10 +1,13 @@
 /* Draws houses of a library at random: ranks, and then the houses of these, plan by plan. */
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "ask/house/diverse.h"
 #include "ask/house/numbered.h"
+#include "ask/house/tried.h"
 #include "runtime/base/array.h"
+#include "runtime/base/integers.h"
 #include "runtime/base/random.h"
 #include "runtime/house/house.h"
 
@@ -155,10 +158,127 @@ static tn_status sample_one_by_one(tn_numbered *n, const tn_plan *plan, size_t w
     return status;
 }
 
+/* ---- tried, as the library asks for walks */
+
+static tn_status house_of_rank(tn_tried_houses *t, const mpz_t rank, tn_tray *trays, tn_house *house, tn_error *error)
+{
+    tn_house_sample among = {.houses = t->without.all};
+    uint32_t length = 0;
+    mpz_t variant;
+    *house = (tn_house){0};
+    mpz_init_set(variant, rank);
+    tn_status status = tn_numbered_find(&t->without, t->without.all, variant, trays, &length, error);
+    if (status == TN_OK)
+        status = find_house(&t->without, &among, trays, length, variant, house, error);
+    mpz_clear(variant);
+    return status;
+}
+
+/* Ranks that are drawn as a set come in an order in which each is as likely as each to be the next. */
+static void shuffle(mpz_t *ranks, size_t count, uint64_t seed)
+{
+    enum { STREAM = 2 };
+    for (size_t i = count; i > 1; i--)
+        mpz_swap(ranks[i - 1], ranks[tn_random64(seed, STREAM, i) % i]);
+}
+
+/* Tries the houses of the ranks, in their order, until so many are kept, whose ranks are put first, ascending. */
+static tn_status try_ranks(tn_tried_houses *t, tn_house_sample *s, size_t wanted, tn_tray *trays, tn_error *error)
+{
+    tn_status status = TN_OK;
+    size_t kept = 0;
+    for (size_t i = 0; status == TN_OK && i < s->count && kept < wanted; i++) {
+        tn_house house;
+        bool keeps = false;
+        status = house_of_rank(t, s->ranks[i], trays, &house, error);
+        if (status == TN_OK)
+            status = tn_tried_try(t, &house, &keeps, error);
+        if (keeps)
+            mpz_swap(s->ranks[kept++], s->ranks[i]);
+        tn_house_clear(&house);
+    }
+    s->count = kept;
+    if (kept > 0)
+        qsort(s->ranks, kept, sizeof *s->ranks, tn_integers_compare);
+    return status;
+}
+
+static tn_status use_kept(tn_tried_houses *t, const tn_house_sample *s, tn_tray *trays, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (size_t i = 0; status == TN_OK && i < s->count; i++) {
+        tn_house house;
+        status = house_of_rank(t, s->ranks[i], trays, &house, error);
+        if (status == TN_OK) {
+            house.form = &t->n->form;
+            status = s->use(s->context, &house, NULL, NULL, error);
+        }
+        tn_house_clear(&house);
+    }
+    return status;
+}
+
+static void say_likely(const tn_tried_houses *t)
+{
+    tn_session_note(
+        t->n->session,
+        "%" PRIu64 " house%s %s tried until %" PRIu64 " %s kept by the clauses that ask for walks; each house "
+        "that they keep is as likely as each",
+        t->tried, t->tried == 1 ? "" : "s", t->tried == 1 ? "was" : "were", t->kept, t->kept == 1 ? "was" : "were");
+}
+
+static tn_status sample_from(tn_tried_houses *t, tn_house_sample *s, size_t wanted, uint64_t seed, tn_error *error)
+{
+    size_t most = t->most < SIZE_MAX ? (size_t)t->most : SIZE_MAX;
+    tn_tray *trays = tn_numbered_tray_room(t->n, error);
+    tn_status status = trays ? tn_numbered_all(&t->without, error) : TN_MEMORY;
+    if (status == TN_OK) {
+        tn_houses_count(t->without.all, TN_ALL_LENGTHS, s->before);
+        most = mpz_cmp_ui(s->before, most) < 0 ? (size_t)mpz_get_ui(s->before) : most;
+        status =
+            tn_watch_room(t->n->form.module->watch, most * 2 * sizeof *s->ranks, "drawing houses to be tried", error);
+    }
+    if (status == TN_OK)
+        status = sample_draw(s, seed, s->before, most, error);
+    if (status == TN_OK) {
+        shuffle(s->ranks, s->count, seed);
+        tn_session_begins(t->n->session, "trying houses");
+        status = try_ranks(t, s, wanted, trays, error);
+        tn_session_ends(t->n->session);
+    }
+    t->n->not_all = s->count < wanted && mpz_cmp_ui(s->before, most) > 0;
+    if (status == TN_OK && t->n->not_all)
+        status = tn_tried_end(t, wanted, error);
+    else if (status == TN_OK && t->tried > 0)
+        say_likely(t);
+    if (status == TN_OK)
+        status = use_kept(t, s, trays, error);
+    free(trays);
+    return status;
+}
+
+static tn_status sample_tried(tn_numbered *n, size_t wanted, uint64_t seed, tn_sampled_house *use, void *context,
+                              tn_error *error)
+{
+    tn_tried_houses tried;
+    tn_house_sample s = {.use = use, .context = context};
+    mpz_init(s.before);
+    tn_status status = tn_tried_begin(n, TN_DRAWN_HOUSES_DEFAULT, &tried, error);
+    if (status == TN_OK)
+        status = sample_from(&tried, &s, wanted, seed, error);
+    sample_clear(&s);
+    tn_tried_clear(&tried);
+    return status;
+}
+
+/* ---- in one of these ways */
+
 static tn_status sample(tn_numbered *n, const tn_plan *plan, size_t wanted, uint64_t seed, tn_sampled_house *use,
                         void *context, tn_error *error)
 {
     tn_houses *houses;
+    if (!plan && tn_numbered_walks(n))
+        return sample_tried(n, wanted, seed, use, context, error);
     tn_status status = count_together(n, plan, &houses, error);
     if (status == TN_OK && houses)
         status = sample_together(n, houses, wanted, seed, use, context, error);
@@ -174,6 +294,7 @@ static tn_status sample(tn_numbered *n, const tn_plan *plan, size_t wanted, uint
 
 typedef struct drawn_house {
     char *line;
+    bool ranked;
     mpz_t rank, variant;
 } drawn_house;
 
@@ -194,8 +315,12 @@ static tn_status keep(void *context, tn_house *house, const mpz_t rank, const mp
     }
     drawn_house *to = &d->items[d->count++];
     to->line = line.data;
-    mpz_init_set(to->rank, rank);
-    mpz_init_set(to->variant, variant);
+    mpz_inits(to->rank, to->variant, NULL);
+    to->ranked = rank != NULL;
+    if (rank) {
+        mpz_set(to->rank, rank);
+        mpz_set(to->variant, variant);
+    }
     return TN_OK;
 }
 
@@ -205,7 +330,7 @@ static tn_status use_drawn(tn_numbered *n, const drawn_house *drawn, tn_sampled_
     tn_house house = {0};
     tn_status status = tn_house_read(&n->form, drawn->line, strlen(drawn->line), TN_HOUSE_TRAYS_DEFAULT, &house, error);
     if (status == TN_OK)
-        status = use(context, &house, drawn->rank, drawn->variant, error);
+        status = use(context, &house, drawn->ranked ? drawn->rank : NULL, drawn->ranked ? drawn->variant : NULL, error);
     tn_house_clear(&house);
     return status;
 }

@@ -1,6 +1,7 @@
 /* Goes through the houses on one plan, and puts them in order by what each is worth. */
 #include "ask/house/walked.h"
 
+#include <inttypes.h>
 #include <stdlib.h>
 
 #include "driver/house/values.h"
@@ -17,15 +18,16 @@ bool tn_walked_asked(const tn_numbered *n, const tn_house_measures *measures)
 
 static tn_status check_number(tn_numbered *n, const tn_plan *plan, tn_error *error)
 {
+    uint64_t most = n->max_houses > 0 ? n->max_houses : TN_WALKED_HOUSES_DEFAULT;
     mpz_t houses;
     mpz_init(houses);
     tn_status status = tn_numbered_houses_on(n, plan->trays, (uint32_t)plan->length, houses, error);
-    if (status == TN_OK && mpz_cmp_ui(houses, TN_WALKED_HOUSES_MAX) > 0) {
+    if (status == TN_OK && mpz_cmp_ui(houses, most) > 0) {
         status = tn_fail(error, TN_LIMIT, E_VARIANTS,
-                         "measures of walks are found house by house, and there are more than %u on this plan",
-                         TN_WALKED_HOUSES_MAX);
-        tn_error_help(error, "ask for fewer of them, with --where, or look at some: tartan sample FILE --plan PLAN "
-                             "--columns -o NAME.csv");
+                         "measures of walks are found house by house, and there are more than %" PRIu64 " on this plan",
+                         most);
+        tn_error_help(error, "allow more, with --max-houses N, ask for fewer of them, with --where, or look at some: "
+                             "tartan sample FILE N --plan PLAN --columns -o NAME.csv");
     }
     mpz_clear(houses);
     return status;

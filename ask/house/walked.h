@@ -7,7 +7,7 @@
 #include "ask/house/numbered.h"
 #include "runtime/house/count/houses.h"
 
-#define TN_WALKED_HOUSES_MAX 100000u
+#define TN_WALKED_HOUSES_DEFAULT 100000u
 
 /* A house: its number on the plan, and its values, in nanometres to the power of each measure. */
 typedef struct tn_walked_house {
@@ -32,7 +32,8 @@ typedef struct tn_walked_houses {
 bool tn_walked_asked(const tn_numbered *n, const tn_house_measures *measures);
 
 /* Goes through the houses of the plan; both are borrowed. front: only the values are points that no house betters in
- * one measure without losing in another. TN_LIMIT (E1617) where there are more than TN_WALKED_HOUSES_MAX. Clear it in
+ * one measure without losing in another. TN_LIMIT (E1617) where there are more than n->max_houses, or
+ * TN_WALKED_HOUSES_DEFAULT. Clear it in
  * any case. */
 tn_status tn_walked_find(tn_numbered *n, const tn_plan *plan, const tn_house_measures *measures, bool front,
                          tn_walked_houses *walked, tn_error *error);

@@ -77,7 +77,8 @@ static tn_status compare_all_houses(tn_session *session, const tn_diff_request *
 {
     const tn_compared_options options = {.shown = r->has_sample ? (size_t)r->sample : TN_DIFF_SHOWN,
                                          .seed = r->seed,
-                                         .one_by_one = r->has_max_houses ? r->max_houses : TN_DIFF_HOUSES};
+                                         .one_by_one =
+                                             r->subject.has_max_houses ? r->subject.max_houses : TN_DIFF_HOUSES};
     tn_error error;
     tn_status status = tn_houses_compare(c, &options, &error);
     if (status == TN_OK)

@@ -467,7 +467,11 @@ static tn_status collect_drawn(void *context, tn_house *house, const mpz_t rank,
     (void)variant;
     collection *c = context;
     pictured *p = &c->items[c->count++];
-    tn_status status = name(p, rank, NULL, error);
+    tn_status status = TN_OK;
+    if (rank)
+        status = name(p, rank, NULL, error);
+    else /* houses that are tried have no rank */
+        snprintf(p->name, NAME_SIZE, "%zu", c->count);
     if (status == TN_OK)
         status = take(p, house, error);
     return status == TN_OK ? describe(p, error) : status;

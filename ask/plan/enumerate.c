@@ -4,6 +4,7 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
+#include "ask/house/tried.h"
 #include "ask/place/kit.h"
 #include "ask/plan/plan_rows.h"
 #include "ask/plan/searched.h"
@@ -365,7 +366,9 @@ typedef struct house_list {
     mpz_t before;  /* houses on the plans before */
     mpz_t variant; /* of the next house on the plan in hand */
     bool bounded;
-    uint64_t given, limit; /* those before the first are counted */
+    uint64_t given, limit;  /* those before the first are counted */
+    tn_tried_houses *tried; /* NULL: they are not */
+    bool untried;           /* some are left */
 } house_list;
 
 static bool is_list_done(const house_list *list)
@@ -423,7 +426,7 @@ static tn_status list_plan(tn_numbered *n, void *context, const tn_tray *trays, 
 static void say_none(const tn_numbered *n, bool on_plan, const house_list *list)
 {
     bool past = list->given == 0 && mpz_cmp(list->next, list->before) >= 0;
-    if (!past || list->bounded || list->limit == 0)
+    if (!past || list->untried || list->bounded || list->limit == 0)
         return;
     if (mpz_sgn(list->before) == 0) {
         tn_numbered_say_few(n, on_plan, 0, 1);
@@ -449,13 +452,59 @@ static tn_status find_plan(tn_numbered *n, house_list *list, mpz_t plan, tn_erro
     return tn_numbered_locate(n, list->next, plan, list->before, error);
 }
 
+/* Tries a house of the library without the clauses that ask for walks; those that are kept are in the same order. */
+static tn_status try_house(void *context, const tn_house *house, bool *stop, tn_error *error)
+{
+    house_list *list = context;
+    tn_house same = *house;
+    bool kept = false;
+    same.form = &list->tried->n->form;
+    *stop = list->untried = !tn_tried_more(list->tried);
+    tn_status status = *stop ? TN_OK : tn_tried_try(list->tried, &same, &kept, error);
+    if (status != TN_OK || !kept)
+        return status;
+    if (mpz_cmp(list->before, list->next) >= 0)
+        status = give_house(list, &same, stop, error);
+    else
+        mpz_add_ui(list->variant, list->variant, 1);
+    mpz_add_ui(list->before, list->before, 1);
+    return status;
+}
+
+static tn_status try_plan(tn_numbered *without, void *context, const tn_tray *trays, uint32_t length, bool *stop,
+                          tn_error *error)
+{
+    house_list *list = context;
+    mpz_t first;
+    mpz_init(first);
+    mpz_set_ui(list->variant, 0);
+    tn_status status = tn_numbered_each(without, trays, length, first, try_house, list, error);
+    *stop = list->untried || is_list_done(list);
+    mpz_clear(first);
+    return status;
+}
+
+static tn_status list_tried(tn_numbered *n, house_list *list, tn_error *error)
+{
+    tn_tried_houses tried;
+    list->tried = &tried;
+    tn_status status = tn_tried_begin(n, TN_LISTED_HOUSES_DEFAULT, &tried, error);
+    if (status == TN_OK && !is_list_done(list))
+        status = tn_numbered_plans_until(&tried.without, try_plan, list, error);
+    if (status == TN_OK && list->untried)
+        status = tn_tried_end(&tried, 0, error);
+    tn_tried_clear(&tried);
+    list->tried = NULL;
+    return status;
+}
+
 static tn_status list_from(tn_numbered *n, house_list *list, tn_error *error)
 {
     mpz_t plan;
+    if (tn_numbered_walks(n))
+        return list_tried(n, list, error);
     mpz_init(plan);
-    tn_status status = tn_houses_check_walks(&n->form, n->record, NULL, error);
-    if (status == TN_OK)
-        status = find_plan(n, list, plan, error);
+    tn_status status = find_plan(n, list, plan, error);
     if (status == TN_OK)
         status = tn_numbered_plans_from(n, plan, list_plan, list, error);
     mpz_clear(plan);
@@ -466,7 +515,8 @@ static tn_status list_from(tn_numbered *n, house_list *list, tn_error *error)
 static void tell_next_house(const house_list *list, tn_reply *answer)
 {
     tn_found_houses *houses = TN_REPLY(found_houses, answer);
-    houses->has_next = list->given >= list->limit && !(list->bounded && mpz_cmp(list->next, list->to) >= 0);
+    houses->has_next =
+        (list->untried || list->given >= list->limit) && !(list->bounded && mpz_cmp(list->next, list->to) >= 0);
     mpz_set(houses->next, list->next);
 }
 

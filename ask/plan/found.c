@@ -140,8 +140,12 @@ static tn_status add_house(const tn_finds *finds, const tn_found_one *found, tn_
     tn_found_house *house = TN_ADD(found_house, to->houses, error);
     if (!house)
         return TN_MEMORY;
-    mpz_set(house->rank, found->rank);
-    mpz_set(house->variant, found->variant);
+    house->has_rank = found->rank != NULL;
+    if (found->rank)
+        mpz_set(house->rank, found->rank);
+    house->has_variant = found->variant != NULL;
+    if (found->variant)
+        mpz_set(house->variant, found->variant);
     if (!tn_library_rank(finds->of->houses->plans, found->trays, found->length, house->plan_rank))
         return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a house stands on a plan that is not in the library");
     return tn_found_house_texts(found->house, NULL, &house->members, error);

@@ -24,7 +24,7 @@ typedef struct tn_found_one {
     const tn_tray *trays;
     uint32_t length;
     tn_house *house;    /* NULL: it is a plan */
-    mpz_srcptr variant; /* of a house: its number among those on its plan */
+    mpz_srcptr variant; /* of a house: its number among those on its plan; NULL: not known */
     mpz_srcptr ways;    /* of a plan: in how many it is derived, if that was asked for; or NULL */
     const char *row;    /* of a row of plans (plan_rows.h): its line; or NULL: it is none */
     const char *plans;  /* and its plans, a member of JSON */

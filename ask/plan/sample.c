@@ -397,7 +397,7 @@ static tn_status give_house(void *context, tn_house *house, const mpz_t rank, co
 static tn_status give_houses(tn_numbered *n, const tn_sample_request *request, const tn_plan *plan, tn_reply *answer)
 {
     tn_error error;
-    tn_found_of of = {.houses = n};
+    tn_found_of of = {.houses = n, .unranked = !plan && tn_numbered_walks(n)};
     tn_finds finds = {.session = n->session, .of = &of, .answer = answer};
     giving g = {.finds = &finds};
     tn_status status = tn_finds_begin(&finds, &error);

@@ -296,6 +296,9 @@ static const tn_option options[] = {
     OPTION_MAX_BOXES(max_boxes),
     OPTION_INPUT_FORMAT,
     OPTION_ON_ERROR,
+    OPTION_MAX_HOUSES(
+        "if walks are asked for: the most houses that are looked at one by one (default 100000 with --plan, else "
+        "5000 that are tried)"),
     OPTIONS_LIBRARY_LIMITS,
 };
 

@@ -269,6 +269,7 @@ static const tn_option options[] = {
         written.output, TN_WRITES_ROWS | TN_WRITES_PICTURES,
         "write to FILE instead of standard output, as its ending says: .json, .csv, .bin, .sqlite and .db, .parquet, "
         "or .svg, .png and .pdf, a picture; otherwise as lines"),
+    OPTION_MAX_HOUSES(WALKED_HOUSES_HELP),
     OPTIONS_LIBRARY_LIMITS,
     OPTIONS_SEARCH,
 };
@@ -298,7 +299,8 @@ const tn_command tn_command_best = {
         "With --library HOUSES, or --plan, the best houses are written, as house lines or JSON lines, as tables (.csv "
         "or .sqlite, as `tartan sample --columns` writes them), or drawn, each "
         "with its name #P:V and its values; --least and --most name measures of houses or of plans "
-        "(docs/houses.md); by measures of walks it is asked with --plan. With --diverse they are the best houses on N different plans, in order; where there are not "
+        "(docs/houses.md); by measures of walks it is asked with --plan. With --diverse they are the best houses on N "
+        "different plans, in order; where there are not "
         "so many plans with houses, then those whose storeys, roofs or other choices of the section differ from those "
         "of "
         "each before on their plan, then their functions, then what is in their faces, then their tiles.",

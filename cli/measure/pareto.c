@@ -97,6 +97,7 @@ static const tn_option options[] = {
     FLAG("json", 0, json, "write JSON, every value exactly and every count as a string of digits"),
     TEXT("plan", 0, "PLAN", plan, "the front of the houses on one plan: a plan in any spelling, or # and its rank"),
     OPTION_OUTPUT_OR_PICTURE,
+    OPTION_MAX_HOUSES(WALKED_HOUSES_HELP),
     OPTIONS_LIBRARY_LIMITS,
 };
 
@@ -112,7 +113,8 @@ const tn_command tn_command_pareto = {
         "With -o and the name of a picture (.svg, .png or .pdf) the front is drawn over the distribution of the "
         "measures: "
         "exact along the edges, of a sample inside. Of three measures, each two have a panel.\n\n"
-        "With --library HOUSES, or --plan, it is the front of the houses, by measures of houses (of walks with --plan) or of plans "
+        "With --library HOUSES, or --plan, it is the front of the houses, by measures of houses (of walks with --plan) "
+        "or of plans "
         "(docs/houses.md). A picture then shows the first house of each value, with its name #P:V.",
     .example = "$ tartan pareto lahave-houses --least cost --most area",
     .options = options,

@@ -537,6 +537,7 @@ static const tn_option options[] = {
     FLAG("watch", 0, watch, "count again whenever the file, or one that it uses, changes; Ctrl-C ends"),
     OPTION_OUTPUT_OR_PICTURE,
     OPTION_LDRAW,
+    OPTION_MAX_HOUSES(WALKED_HOUSES_HELP),
     OPTIONS_LIBRARY_LIMITS,
 };
 

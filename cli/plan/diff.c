@@ -187,7 +187,7 @@ static void diff_text(const tn_compared *c, FILE *out)
 typedef struct diff_settings {
     tn_settings common;
     tn_plan_settings plans;
-    tn_option_number sample, seed, max_houses;
+    tn_option_number sample, seed;
     bool json, without_measures;
     const char *output, *title;
 } diff_settings;
@@ -242,8 +242,6 @@ static void compare(tn_job *job, tn_session *before)
                                      .sample = settings->sample.value,
                                      .seed = settings->seed.value,
                                      .no_measures = settings->without_measures,
-                                     .has_max_houses = settings->max_houses.given,
-                                     .max_houses = settings->max_houses.value,
                                      .drawn = {.picture = tn_answer_picture_choice(settings->output)},
                                      .title = settings->title};
     tn_made_outputs outputs;
@@ -291,7 +289,7 @@ static const tn_option options[] = {
     FLAG("no-measures", 0, without_measures, "leave out how measures change, which takes most of the time"),
     OUTPUT(output, TN_WRITES_PICTURES, "also draw the plans shown, removed, added and kept: .svg, .png or .pdf"),
     TEXT("title", 0, "TEXT", title, "the picture's title"),
-    NUMBER("max-houses", 0, "N", max_houses, 1, 0, "the most houses that are compared one by one (default 1000000)"),
+    OPTION_MAX_HOUSES("the most houses that are compared one by one (default 1000000)"),
     OPTIONS_LIBRARY_LIMITS,
 };
 

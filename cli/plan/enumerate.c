@@ -299,6 +299,7 @@ static const tn_option options[] = {
         "of a kit .json, or .mpd or .ldr, with a sub-file for each building; otherwise as lines"),
     FLAG("resume", 0, written.resume, "continue a database that was interrupted; no plan is left out or written twice"),
     OPTION_LDRAW,
+    OPTION_MAX_HOUSES(TRIED_HOUSES_HELP("100000")),
     OPTIONS_LIBRARY_LIMITS,
     OPTIONS_SEARCH,
 };
@@ -317,7 +318,8 @@ const tn_command tn_command_enumerate = {
         "passes a limit, its plans are found one after another by search, in the same order; --from then takes as long "
         "as finding those before.\n\n"
         "With --library HOUSES, or --plan, houses are written, plan by plan: as house lines, JSON, CSV, or into a "
-        "database; with --columns as tables of houses, rooms and faces. Ranks are then among all houses of the library, or "
+        "database; with --columns as tables of houses, rooms and faces. Ranks are then among all houses of the "
+        "library, or "
         "among those on the plan.\n\n"
         "Of a kit (docs/kit-language.md) it lists the buildings that `tartan count` counts, a line for each: its parts "
         "from the lowest up, each with its name, its place in LDU as LDraw has it (y points down) and its quarter "

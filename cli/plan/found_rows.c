@@ -73,16 +73,15 @@ enum { LOOK_EVERY = 4096 };
 
 /* ---- opened */
 
-/* Plans without ranks are written as lines, JSON or packed. */
-static bool says_no_ranks(const tn_found_rows *rows)
+/* What has no ranks is written as lines, JSON or packed; `why` says of what. */
+static bool says_no_ranks(const tn_found_rows *rows, const char *why)
 {
     tn_plan_format format = (tn_plan_format)rows->settings->format;
     if (format != TN_FORMAT_CSV && format != TN_FORMAT_SQLITE && format != TN_FORMAT_PARQUET)
         return true;
     tn_help(tn_job_diagnostics(rows->job),
-            tn_job_usage(rows->job,
-                         "these plans are found by search, and their ranks, which this format has, are not known"),
-            "write lines or JSON");
+            tn_job_usage(rows->job, "%s, and their ranks, which this format has, are not known", why),
+            rows->of.houses ? "write lines or JSON, or tables (--columns)" : "write lines or JSON");
     return false;
 }
 
@@ -99,7 +98,7 @@ static bool open_plans(tn_found_rows *rows)
     snprintf(command, sizeof command, "%s%s%s%s%s", rows->made, settings->columns ? " --columns" : "",
              rows->of.ways ? " --ways" : "", rows->of.rows ? " --plans" : "", rows->of.weight ? " (by weight)" : "");
     tn_provenance_describe(&rows->job->opened, ready, rows->job->settings->operands.items[0], command, &described);
-    if (rows->of.unranked && !says_no_ranks(rows))
+    if (rows->of.unranked && !says_no_ranks(rows, "these plans are found by search"))
         return false;
     mpz_init(ranks);
     bool counted = rows->of.rows || ready->library;
@@ -149,6 +148,8 @@ static bool open_houses(tn_found_rows *rows)
                                   rows->job->settings->operands.items[0], rows->made, described);
     if (rows->settings->columns)
         return open_tables(rows, &described->metadata);
+    if (rows->of.unranked && !says_no_ranks(rows, "these houses are tried, as clauses ask for walks"))
+        return false;
     const tn_row_source source = {.schema = n->schema, .metadata = &described->metadata, .rows = &columns};
     return job_row_writer(rows->job, rows->settings, &source, &rows->writer);
 }
@@ -250,11 +251,12 @@ static tn_status write_house(tn_found_rows *rows, const tn_found_one *found, tn_
     mpz_t plan;
     mpz_init(plan);
     bool kept = tn_library_rank(rows->of.houses->plans, found->trays, found->length, plan);
-    char *plan_rank = mpz_get_str(NULL, 10, plan), *number = mpz_get_str(NULL, 10, found->variant);
+    char *plan_rank = mpz_get_str(NULL, 10, plan);
+    char *number = found->variant ? mpz_get_str(NULL, 10, found->variant) : NULL;
     tn_status status = TN_OK;
     if (!kept)
         status = tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a house stands on a plan that is not in the library");
-    else if (!plan_rank || !number)
+    else if (!plan_rank || (found->variant && !number))
         status = tn_fail_memory(error);
     else
         status = write_house_row(rows, found, plan_rank, number, error);

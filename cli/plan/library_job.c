@@ -89,6 +89,8 @@ tn_library_asked tn_job_asked(const tn_plan_settings *plans)
                               .max_length = plans->max_length.value,
                               .has_max_states = plans->max_states.given,
                               .max_states = plans->max_states.value,
+                              .has_max_houses = plans->max_houses.given,
+                              .max_houses = plans->max_houses.value,
                               .has_threads = plans->threads.given,
                               .threads = plans->threads.value};
 }

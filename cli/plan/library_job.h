@@ -41,7 +41,7 @@ typedef struct tn_plan_settings {
     const char *library;
     tn_option_list wheres; /* further requirements */
     tn_option_range trays;
-    tn_option_number max_length, max_states, threads;
+    tn_option_number max_length, max_states, max_houses, threads;
 } tn_plan_settings;
 
 #define OPTION_LIBRARY                                                                                                 \
@@ -60,11 +60,17 @@ typedef struct tn_plan_settings {
 #define OPTION_MAX_STATES                                                                                              \
     NUMBER("max-states", 0, "N", plans.max_states, 1, 1u << 30,                                                        \
            "the most states an automaton may have while it is made (default 20000, 1000000 for a library)")
+#define OPTION_MAX_HOUSES(HELP) NUMBER("max-houses", 0, "N", plans.max_houses, 1, 0, HELP)
+#define WALKED_HOUSES_HELP                                                                                             \
+    "if walks are asked for: the most houses of a plan that are gone through one by one (default 100000)"
+#define TRIED_HOUSES_HELP(NUMBER)                                                                                      \
+    "of a library that asks for walks, if no plan is given: the most houses that are tried (default " NUMBER ")"
 /* What most commands about libraries take: which library, and within which limits. */
 #define OPTIONS_LIBRARY OPTION_LIBRARY, OPTION_WHERE, OPTION_SET
 #define OPTIONS_LIBRARY_LIMITS OPTION_TRAYS, OPTION_MAX_LENGTH, OPTION_MAX_STATES, OPTION_THREADS(plans.threads)
 
-/* What searching may take, for commands that search a library whose automaton passes a limit. Commands embed it as `search`. */
+/* What searching may take, for commands that search a library whose automaton passes a limit. Commands embed it as
+ * `search`. */
 typedef struct tn_search_settings {
     tn_option_number max_conflicts, max_gates;
 } tn_search_settings;

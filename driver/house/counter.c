@@ -7,21 +7,6 @@
 #include "runtime/house/rank/rank.h"
 #include "runtime/house/rule/stages.h"
 
-static tn_status take_clauses(tn_house_counter *c, tn_error *error)
-{
-    const tn_house_clause_record *own = c->module->HOUSE_CLAUSE_records + c->library->clause_first;
-    bool *walks = calloc((size_t)c->library->clause_count + 1, sizeof *walks);
-    c->clauses = malloc(((size_t)c->library->clause_count + 1) * sizeof *c->clauses);
-    tn_status status = walks && c->clauses
-                           ? tn_clauses_walking(&c->form, c->library, walks, error)
-                           : tn_fail_memory(error);
-    for (uint32_t i = 0; status == TN_OK && i < c->library->clause_count; i++)
-        if (!walks[i])
-            c->clauses[c->clause_count++] = own[i];
-    free(walks);
-    return status;
-}
-
 tn_status tn_house_counter_open(const tn_module *module, uint32_t library, uint32_t plan_states, uint32_t max_states,
                                 tn_house_counter *c, tn_error *error)
 {
@@ -34,7 +19,7 @@ tn_status tn_house_counter_open(const tn_module *module, uint32_t library, uint3
     if (status != TN_OK)
         return status;
     tn_form_ready(module, c->library->form, c->schema, &c->form);
-    status = take_clauses(c, error);
+    status = tn_clauses_not_walking(&c->form, c->library, &c->clauses, &c->clause_count, error);
     return status == TN_OK ? tn_library_new(c->schema, c->library->plans, &options, &c->plans, error) : status;
 }
 

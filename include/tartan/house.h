@@ -23,6 +23,8 @@ typedef struct tartan_house_library_options {
     const char *name;    /* NULL: the only library of houses of the compiled file itself */
     uint32_t max_states; /* of any automaton, and of counting houses; 0: 20,000 for a clause, 1,000,000 for all clauses
                             together, 3,000,000 for houses */
+    uint64_t max_houses; /* if walks are asked for: the most houses that are looked at one by one; 0: 100,000 on one
+                            plan, 5,000 that are drawn of all */
 } tartan_house_library_options;
 TARTAN_SIZED(tartan_house_library_options)
 

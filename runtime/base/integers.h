@@ -25,6 +25,13 @@ static inline void tn_integers_free(mpz_t *items, size_t count)
     free(items);
 }
 
+/* For qsort, ascending. */
+static inline int tn_integers_compare(const void *a, const void *b)
+{
+    mpz_srcptr x = a, y = b;
+    return mpz_cmp(x, y);
+}
+
 /* How many decimal digits the number has, without its sign: 1 of 0. mpz_sizeinbase may say one too many. */
 static inline size_t tn_decimal_digits(const mpz_t number)
 {

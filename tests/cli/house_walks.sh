@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Walks and ways out: a nanometre decides; cells without a walk meet no bound, and where there are no such cells all do that have a `most`;
-# what is said of single houses; houses on one plan are counted, listed, ranked, varied, put in order and spread by them, those on all plans are not; walks between cells that no house has are warned about.
+# what is said of single houses; houses on one plan are counted, listed, ranked, varied, put in order and spread by them; those on all plans are listed
+# and drawn by trying them; walks between cells that no house has are warned about.
 # Slow under sanitizers.
 name=house_walks
 . "$(dirname "$0")/golden.bash"
@@ -68,10 +69,56 @@ is 'listed' "$("$TARTAN" enumerate asked.plan --library asked --plan "$two" | wc
 is 'a house of its name' "$("$TARTAN" house asked.plan '#3:1' --library asked)" "$(sed -n 2p listed)"
 is 'its name' "$("$TARTAN" rank asked.plan --library asked "$(sed -n 2p listed)")" '#3:1'
 is 'drawn by chance' "$("$TARTAN" sample asked.plan 5 --library asked --plan "$two" 2>/dev/null | sort)" "$(sort listed)"
-for command in 'count asked.plan --library asked' 'sample asked.plan 2 --library asked' 'enumerate asked.plan --library asked' "house asked.plan #3 --library asked"; do
-    if "$TARTAN" $command >/dev/null 2>said; then fail "$command is not refused"; fi
+printf 'measure wide = sum(width)\n' >>asked.plan
+for command in 'count' 'house #3' 'best --least wide' 'pareto --least wide --most wide' 'count --by wide' 'count --clauses'; do
+    read -ra words <<<"$command"
+    if "$TARTAN" "${words[0]}" asked.plan "${words[@]:1}" --library asked >/dev/null 2>said; then fail "$command is not refused"; fi
     grep -q 'E1687' said || fail "$command: $(head -1 said)"
+    grep -q 'tartan sample' said || fail "$command is not told what to ask instead: $(cat said)"
 done
+
+# All plans together: houses that the other clauses keep are tried. Those that are kept have the ranks and the names that they have on
+# their plans; a sample has each as often as each; where trying ends is said, and how many were kept until then.
+mixed='require walk(cell(second), to outside) <= 3m or quantity(any, n <= 1) prune exits(cell(any)) = 0 and quantity(any, n >= 3) require cell(first)'
+form "$mixed" >tried.plan
+"$TARTAN" enumerate tried.plan --library all >all
+"$TARTAN" enumerate tried.plan --library asked >kept
+is 'tried: as explain says' "$(while read -r line; do "$TARTAN" explain tried.plan "$line" --library asked | grep -q keeps && echo "$line"; done <all)" "$(<kept)"
+"$TARTAN" enumerate tried.plan --library asked --format json >kept.json
+for k in 0 5 11; do
+    line=$(sed -n $((k + 1))p kept)
+    named=$(sed -n $((k + 1))p kept.json | sed -E 's/.*"plan_rank":"([0-9]+)","variant":"([0-9]+)".*/#\1:\2/')
+    is "the name of house $k" "$("$TARTAN" rank tried.plan "$line" --library asked)" "$named"
+    is "the house of $named" "$("$TARTAN" house tried.plan "$named" --library asked)" "$line"
+    is "from rank $k on" "$("$TARTAN" enumerate tried.plan --library asked --from $k --limit 3)" "$(sed -n "$((k + 1)),$((k + 3))p" kept)"
+    is "to rank $k" "$("$TARTAN" enumerate tried.plan --library asked --to $k)" "$(head -n $k kept)"
+done
+is 'tried with --where' "$("$TARTAN" enumerate tried.plan --library all --where 'walk(cell(second), to outside) <= 3m or quantity(any, n <= 1)' \
+    --where 'not exits(cell(any)) = 0 or quantity(any, n <= 2)' --where 'cell(first)')" "$(<kept)"
+"$TARTAN" sample tried.plan 99999 --library asked >sample 2>said
+is 'all are drawn' "$(<sample)" "$(<kept)"
+is 'and that is said' "$(grep -c 'these are all' said)" 1
+for seed in $(seq 60); do "$TARTAN" sample tried.plan 7 --library asked --seed "$seed" 2>/dev/null; done >drawn
+python3 - <<'PY' || fail 'houses that are drawn'
+import collections
+kept, drawn = open("kept").read().splitlines(), open("drawn").read().splitlines()
+times, often = collections.Counter(drawn), 420 / len(kept)
+assert len(kept) >= 12 and len(drawn) == 420 and set(drawn) <= set(kept), (len(kept), len(drawn))
+assert all(len(set(drawn[i : i + 7])) == 7 for i in range(0, 420, 7)), "one twice"
+assert all(often / 2.5 < times[house] < often * 2 for house in kept), times
+PY
+"$TARTAN" sample tried.plan 7 --library asked --seed 60 --threads 4 2>/dev/null | diff - <(tail -7 drawn) || fail 'the same seed draws others'
+"$TARTAN" sample tried.plan 3 --library asked --columns -o drawn.csv 2>/dev/null
+is 'a table of them' "$(sed 1d drawn.csv | cut -d, -f2 | sort -u):$(sed 1d drawn.csv | wc -l)" ':3'
+is 'diverse ones' "$("$TARTAN" sample tried.plan 4 --library asked --diverse 2>/dev/null | sort | comm -12 - <(sort kept) | wc -l)" 4
+"$TARTAN" draw tried.plan --library asked --sample 3 -o drawn.svg 2>/dev/null && [ -s drawn.svg ] || fail 'they are not drawn'
+cp tried.plan walked.plan
+golden tried_few "tartan sample $scratch/walked.plan 9 --library asked --max-houses 20"
+golden tried_listed "tartan enumerate $scratch/walked.plan --library asked --max-houses 5"
+golden tried_table "tartan sample $scratch/walked.plan 3 --library asked -o $scratch/x.sqlite"
+form 'require exits(cell(any)) >= 2, walk(cell(second), to outside) >= 0m' >walked.plan
+golden tried_none "tartan sample $scratch/walked.plan 9 --library asked --max-houses 12"
+golden tried_nowhere "tartan enumerate $scratch/walked.plan --library asked"
 
 # Tiles that stand in the way, in groups, with what they cost: those that are kept by both numbers, and by the one and not the other.
 cat >furnished.plan <<'PLAN'
@@ -283,6 +330,9 @@ is 'of a library that asks for walks, by another measure' "$("$TARTAN" best furn
     "$("$TARTAN" enumerate furnished.plan --library some --plan "$plan" | sort)"
 sed 's/trays 1..2/trays 1..6/' furnished.plan >many.plan
 golden many "tartan best $scratch/many.plan 3 --library all --plan '4m space:5m | 4m space:5m | 4m space:5m | 4m space:5m | 4m space:5m | 4m space:5m' --least longest"
+best_of() { "$TARTAN" best furnished.plan 3 --library all --plan '4m space:5m | 4m space:5m' --least longest --max-houses "$1" 2>&1; }
+is 'as many as are allowed' "$(best_of 150 | grep -cv '^#\|^note')" 3
+is 'one fewer' "$(best_of 149 | grep -o 'E1617.*')" 'E1617]: measures of walks are found house by house, and there are more than 149 on this plan'
 golden best_none "tartan best $scratch/walked.plan 3 --plan '3m space:4m | 4m space:4m' --library all --least longest"
 golden best_all "tartan best $scratch/walked.plan 3 --library all --least longest"
 golden spread "tartan count $scratch/walked.plan --plan '3m space:4m | 4m space:4m' --library all --by longest"

@@ -357,7 +357,8 @@ static tn_status refuse_measure(const char *name, tn_error *error)
             "together",
             name);
     tn_error_help(error, "those on one plan are gone through: `tartan best`, `tartan pareto` and `tartan count --by` "
-                         "with --plan PLAN or '#P'");
+                         "with --plan PLAN or '#P'; `tartan sample FILE N --columns` has the values of houses of all "
+                         "plans");
     return TN_LIMIT;
 }
 
@@ -365,7 +366,9 @@ static tn_status refuse_walks(const char *name, tn_error *error)
 {
     tn_fail(error, TN_LIMIT, E_WALKS_OF_ALL,
             "`%.80s` asks how one walks through a house: houses on all plans together are not counted by that", name);
-    tn_error_help(error, "ask about the houses on one plan (--plan PLAN or '#P'), or about one house (`tartan explain`)");
+    tn_error_help(error,
+                  "ask about the houses on one plan (--plan PLAN or '#P'), or about one house (`tartan explain`); "
+                  "`tartan sample` and `tartan enumerate` try houses of all plans");
     return TN_LIMIT;
 }
 
@@ -374,8 +377,7 @@ tn_status tn_houses_check_walks(const tn_house_form *form, const tn_house_librar
 {
     const tn_module *module = form->module;
     bool *walks = calloc((size_t)library->clause_count + 1, sizeof *walks);
-    tn_status status =
-        walks ? tn_clauses_walking(form, library, walks, error) : tn_fail_memory(error);
+    tn_status status = walks ? tn_clauses_walking(form, library, walks, error) : tn_fail_memory(error);
     for (uint32_t i = 0; status == TN_OK && i < library->clause_count; i++)
         if (walks[i])
             status = refuse_walks(tn_text(module, module->HOUSE_CLAUSE_records[library->clause_first + i].name), error);

@@ -145,6 +145,21 @@ tn_status tn_clauses_walking(const tn_house_form *form, const tn_house_library_r
     return tn_clauses_asking(form, library, tn_house_term_of_floors, clauses, error);
 }
 
+tn_status tn_clauses_not_walking(const tn_house_form *form, const tn_house_library_record *library,
+                                 tn_house_clause_record **clauses, uint32_t *count, tn_error *error)
+{
+    const tn_house_clause_record *own = form->module->HOUSE_CLAUSE_records + library->clause_first;
+    bool *walks = calloc((size_t)library->clause_count + 1, sizeof *walks);
+    *clauses = malloc(((size_t)library->clause_count + 1) * sizeof **clauses);
+    *count = 0;
+    tn_status status = walks && *clauses ? tn_clauses_walking(form, library, walks, error) : tn_fail_memory(error);
+    for (uint32_t i = 0; status == TN_OK && i < library->clause_count; i++)
+        if (!walks[i])
+            (*clauses)[(*count)++] = own[i];
+    free(walks);
+    return status;
+}
+
 /* ---- functions that are named */
 
 static void mark_sum(const tn_module *module, uint32_t index, bool *reached)

@@ -25,6 +25,9 @@ tn_status tn_clauses_asking(const tn_house_form *form, const tn_house_library_re
 /* Which of them ask for walks or ways out. Does a measure? */
 tn_status tn_clauses_walking(const tn_house_form *form, const tn_house_library_record *library, bool *clauses,
                              tn_error *error);
+/* Those that do not: so many, which the caller frees also after a failure. */
+tn_status tn_clauses_not_walking(const tn_house_form *form, const tn_house_library_record *library,
+                                 tn_house_clause_record **clauses, uint32_t *count, tn_error *error);
 bool tn_measure_walks(const tn_module *module, const tn_house_measured *measure);
 
 /* Marks the functions that an instruction names. */

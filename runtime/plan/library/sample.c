@@ -91,19 +91,13 @@ static tn_status drawn_add(tn_drawn *drawn, bool *fresh, tn_error *error)
     return TN_OK;
 }
 
-static int compare_integers(const void *a, const void *b)
-{
-    mpz_srcptr x = a, y = b;
-    return mpz_cmp(x, y);
-}
-
 /* Gives the numbers drawn, ascending; ranks are [count], initialised. */
 static void drawn_give(const tn_drawn *drawn, mpz_t *ranks)
 {
     for (size_t i = 0; i < drawn->count; i++)
         mpz_import(ranks[i], drawn->limbs, -1, sizeof(mp_limb_t), 0, 0, drawn->values + i * drawn->limbs);
     if (drawn->count > 0)
-        qsort(ranks, drawn->count, sizeof *ranks, compare_integers);
+        qsort(ranks, drawn->count, sizeof *ranks, tn_integers_compare);
 }
 
 /* ---- a sample that is divided: which of its numbers lie in a stretch */

@@ -307,7 +307,8 @@ static bool append_json(tn_plan_writer *writer, const char *rank, const tn_plan_
     if (rank)
         tn_json_string(&json, "rank", rank);
     for (size_t i = 0; i < tn_writer_texts(writer); i++)
-        tn_json_string(&json, writer->rows->names[i], row->texts[i]);
+        if (row->texts[i])
+            tn_json_string(&json, writer->rows->names[i], row->texts[i]);
     tn_plan_write_trays(writer->schema, row->trays, row->length, &json);
     if (row->members)
         tn_json_written(&json, row->members, strlen(row->members));
