@@ -68,6 +68,12 @@ def main():
         check(f"{tag} is drawn {tags[tag] - 1} times", tags[tag] - 1 == kinds[kind])
     check(f"tags {set(tags) - set(table)} are in the table", set(tags) <= set(table) and len(table) == len(kinds))
 
+    # Each flight says how many risers it has: on its own floor, and where it comes up.
+    flights = sum(face["rel"] == "above" and face["kind"] not in plain for face in house["faces"])
+    for word in ("UP", "DN"):
+        told = sum(re.match(word + r" \d+(R| \u00d7 \d+/\d+)$", text) is not None for text in said)
+        check(f"{told} times {word}, of {flights} flights", told == flights)
+
     net = Counter(f"{int(room['net']) / 1e18:.1f} m\u00b2" for room in house["rooms"])
     rooms = {said[i]: said[i + 2] for i, text in enumerate(said[:-2]) if re.fullmatch(r"\d\.\d\d", text) and said[i + 2].endswith(" net")}
     check(f"areas {rooms} are net {net}", Counter(area.removesuffix(" net") for area in rooms.values()) == net)

@@ -117,6 +117,12 @@ tn_status tn_marks_plan(const tn_house *house, uint32_t storey, const tn_mark_st
 
 struct tn_taken;
 
+/* ---- marks_stairs.c: the stair in a cell; the flights that go up from a storey, and those that come up to it. TN_MEMORY.
+ */
+void tn_marks_stair(const tn_house *house, uint32_t cell, tn_marks *marks);
+tn_status tn_marks_flights(const tn_house *house, uint32_t storey, const tn_mark_style *style, tn_marks *marks,
+                           tn_error *error);
+
 /* ---- marks_items.c: what stands in the rooms of a storey, as it is drawn; taken: turned as the plan is. TN_MEMORY. */
 tn_status tn_marks_items(const tn_house *house, uint32_t storey, const struct tn_taken *taken, tn_marks *marks,
                          tn_error *error);

@@ -1,88 +1,11 @@
 /* Draws the marks of a plan: how doors swing, their tags and those of windows, stairs, spaces that are open to below,
- * where sections are cut, dimensions; with them names. The front is below: all is turned by half. */
-#include <inttypes.h>
+ * where sections are cut, dimensions; with them stairs and names. The front is below: all is turned by half. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "runtime/house/model/marks_names.h"
 #include "runtime/house/model/model.h"
-
-#define TREAD_NM 254000000.0 /* 10"; more where a stair is so long that it would have more than TREADS_MOST */
-#define TREADS_MOST 1000
-
-/* Treads across a stair, and a line up its middle. It goes the same way on both storeys: their cells are equal, though
- * the walls around them may not be. */
-static void put_stair(const tn_house *house, uint32_t cell, tn_marks *marks)
-{
-    tn_rectangle whole = house->cells[cell].at, r = tn_cell_clear(house, cell);
-    bool along_x = whole.x1 - whole.x0 > whole.y1 - whole.y0;
-    double x0 = (double)r.x0, x1 = (double)r.x1, y0 = (double)r.y0, y1 = (double)r.y1;
-    double low = along_x ? x0 : y0, high = along_x ? x1 : y1, tip = TREAD_NM * 0.6,
-           tread = fmax(TREAD_NM, (high - low) / TREADS_MOST);
-    for (double at = low + tread; at < high; at += tread)
-        tn_marks_line(marks, TN_MARK_STAIR, along_x ? at : x0, along_x ? y0 : at, along_x ? at : x1, along_x ? y1 : at);
-    double mx = (x0 + x1) / 2, my = (y0 + y1) / 2;
-    tn_marks_line(marks, TN_MARK_STAIR, along_x ? x0 : mx, along_x ? my : y0, along_x ? x1 : mx, along_x ? my : y1);
-    for (int side = -1; side <= 1; side += 2)
-        tn_marks_line(marks, TN_MARK_STAIR, along_x ? x1 - tip : mx + side * tip / 2,
-                      along_x ? my + side * tip / 2 : y1 - tip, along_x ? x1 : mx, along_x ? my : y1);
-}
-
-/* What is said of the way up: how many risers there are, and how high and deep steps are. */
-static void put_ascent(const tn_house *house, const tn_face *face, const tn_flight *flight, const tn_mark_style *style,
-                       tn_marks *marks)
-{
-    char text[sizeof marks->items->text];
-    const tn_opening_record *record = tn_form_flight(house->form, face->kind);
-    int64_t risers = tn_flight_size_in(house->form, face->storey, record).steps,
-            height = house->form->level[face->storey + 1] - house->form->level[face->storey];
-    if (style->us || risers == 0)
-        snprintf(text, sizeof text, "UP %" PRId64 "R", risers);
-    else
-        snprintf(text, sizeof text, "UP %" PRId64 " \xc3\x97 %.0f/%.0f", risers, (double)height / (double)risers / 1e6,
-                 (double)record->going / 1e6);
-    double u0 = (double)flight->path[0][0], v0 = (double)flight->path[0][1], du = (double)flight->path[1][0] - u0,
-           dv = (double)flight->path[1][1] - v0, leg = fabs(du) + fabs(dv),
-           along = (tn_mark_width(text) / 2 + 0.3) * style->lettering + TREAD_NM / 4;
-    if (2 * along > leg)
-        snprintf(text, sizeof text, "UP");
-    along = (tn_mark_width(text) / 2 + 0.3) * style->lettering + TREAD_NM / 4;
-    tn_marks_text(marks, TN_MARK_STAIR, u0 + du / leg * along, v0 + dv / leg * along, style->lettering,
-                  fabs(dv) > fabs(du), text);
-}
-
-/* The way up a flight from a point at its foot, with an arrow at its upper end. */
-static void put_way(const tn_flight *flight, tn_marks *marks)
-{
-    double u0 = 0, v0 = 0, tip = TREAD_NM * 0.6;
-    for (size_t i = 0; i < flight->path_count; i++) {
-        double u = (double)flight->path[i][0], v = (double)flight->path[i][1], along = fabs(u - u0) + fabs(v - v0);
-        if (i > 0)
-            tn_marks_line(marks, TN_MARK_STAIR, u0, v0, u, v);
-        if (i > 0 && i + 1 == flight->path_count) {
-            double du = (u - u0) / along * tip, dv = (v - v0) / along * tip;
-            tn_marks_line(marks, TN_MARK_STAIR, u - du - dv / 2, v - dv + du / 2, u, v);
-            tn_marks_line(marks, TN_MARK_STAIR, u - du + dv / 2, v - dv - du / 2, u, v);
-        }
-        u0 = u;
-        v0 = v;
-    }
-    if (flight->path_count > 1)
-        tn_marks_circle(marks, TN_MARK_STAIR, (double)flight->path[0][0], (double)flight->path[0][1], tip / 3);
-}
-
-static tn_status put_flight(const tn_house *house, const tn_face *face, const tn_mark_style *style, tn_marks *marks,
-                            tn_error *error)
-{
-    tn_flight flight;
-    tn_status status = tn_flight_stand(house, face, &flight, error);
-    put_way(&flight, marks);
-    if (flight.path_count > 1)
-        put_ascent(house, face, &flight, style, marks);
-    tn_flight_clear(&flight);
-    return status;
-}
 
 static void put_leaf(tn_marks *marks, const tn_door_leaf *leaf)
 {
@@ -217,17 +140,15 @@ static tn_status put_symbols(const tn_planned *p, tn_marks *marks, tn_error *err
 {
     const tn_house *house = p->house;
     tn_status status = TN_OK;
-    for (uint32_t i = 0; status == TN_OK && i < house->face_count; i++) {
+    for (uint32_t i = 0; i < house->face_count; i++) {
         const tn_face *face = &house->faces[i];
         if (face->relation == TN_FACE_UNDER && face->kind == TN_FACE_STAIR) {
             uint32_t cell = face->storey == p->storey ? face->first : face->second;
             if (house->cells[cell].storey == p->storey)
-                put_stair(house, cell, marks);
-        } else if (face->relation == TN_FACE_UNDER && tn_form_flight(house->form, face->kind)) {
-            if (face->storey == p->storey)
-                status = put_flight(house, face, p->style, marks, error);
+                tn_marks_stair(house, cell, marks);
         }
     }
+    status = tn_marks_flights(house, p->storey, p->style, marks, error);
     for (size_t i = 0; i < p->doors.count; i++)
         put_door(marks, &p->doors.items[i]);
     for (uint32_t i = 0; i < house->cell_count; i++)

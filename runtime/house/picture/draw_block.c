@@ -15,11 +15,14 @@
 #define BAR_HEIGHT 4.0
 #define BAR_LEADING 13.0
 #define BAR_STEPS 4
+#define BAR_MOST 200.0 /* longer ones are of half as many metres or feet */
 
 void tn_scale_bar_paint(const tn_title_block *block, tn_paint *paint, double right, double y)
 {
     char text[64];
     int64_t unit = block->metric ? INT64_C(1000000000) : TN_FOOT_NM * 4;
+    while (BAR_STEPS * (double)unit * block->points > BAR_MOST)
+        unit /= 2;
     double step = (double)unit * block->points, x = right - BAR_STEPS * step;
     tn_scale_write(block->scale, block->metric, text, sizeof text);
     tn_paint_face(paint, TN_LETTERING, false);

@@ -41,7 +41,7 @@ typedef struct tn_title_block {
 double tn_title_block_height(const tn_title_block *block);
 void tn_title_block_paint(const tn_title_block *block, tn_paint *paint, double x, double y);
 
-/* The scale, and a bar of four metres, or of 16 feet, in black and white, that ends there. */
+/* The scale, and a bar of four metres, or of 16 feet, or less if that is long, in black and white, that ends there. */
 void tn_scale_bar_paint(const tn_title_block *block, tn_paint *paint, double right, double y);
 
 /* The project, the date and the revision in one line. */
