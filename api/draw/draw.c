@@ -1,6 +1,7 @@
 /* The C interface to pictures, which are made in memory. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "api/genome/genome.h"
 #include "api/geometry/mesh.h"
@@ -19,10 +20,19 @@ static tartan_status begin(tartan_picture_format format, uint32_t dpi, const tar
 {
     if (!bytes || !size)
         return tn_api_missing(error, "room for the picture");
-    if ((unsigned)format > TARTAN_PDF)
+    if ((unsigned)format > TARTAN_DRAWN_DXF)
         return tn_api_refuse(error, TARTAN_INVALID, "there is no picture format %d", (int)format);
     *to = (tn_picture){.format = (tn_canvas_format)((int)format + TN_CANVAS_SVG), .dpi = dpi, .watch = watch};
     return tn_api_watch(given, watch, error);
+}
+
+/* The same, of what no drawing program reads. */
+static tartan_status begin_shown(tartan_picture_format format, uint32_t dpi, const tartan_watch *given, tn_watch *watch,
+                                 tn_picture *to, void **bytes, const size_t *size, tartan_error *error)
+{
+    if (format == TARTAN_DRAWN_DXF)
+        return tn_api_refuse(error, TARTAN_INVALID, "a DXF is made of plans; this is drawn as SVG, PNG or PDF");
+    return begin(format, dpi, given, watch, to, bytes, size, error);
 }
 
 static tartan_status finish(tn_status status, const tn_error *found, const tn_picture *to, void **bytes, size_t *size,
@@ -61,6 +71,21 @@ static tartan_status gather(const tn_schema *schema, const uint32_t *trays, cons
     return TARTAN_OK;
 }
 
+static tartan_status take_profile(const char *name, tn_picture *to, tartan_error *error)
+{
+    static const char *const names[] = {[TN_PROFILE_ISO] = "iso", [TN_PROFILE_US] = "us"};
+    if (!name)
+        return TARTAN_OK;
+    if (to->format != TN_CANVAS_DXF)
+        return tn_api_refuse(error, TARTAN_INVALID, "a profile names the layers of a DXF, and the picture is none");
+    for (int i = TN_PROFILE_ISO; i <= TN_PROFILE_US; i++)
+        if (strcmp(name, names[i]) == 0)
+            to->profile = (tn_profile)i;
+    return to->profile != TN_PROFILE_BY_MEASURES
+               ? TARTAN_OK
+               : tn_api_refuse(error, TARTAN_INVALID, "profiles are iso and us, not `%.60s`", name);
+}
+
 tartan_status tartan_plans_draw(const tartan_schema *schema, const uint32_t *trays, const size_t *ends, size_t count,
                                 tartan_picture_format format, const tartan_plans_drawing *given,
                                 const tartan_watch *waiting, void **bytes, size_t *size, tartan_error *error)
@@ -75,6 +100,8 @@ tartan_status tartan_plans_draw(const tartan_schema *schema, const uint32_t *tra
     tartan_status status = TN_API_TAKE(tartan_plans_drawing, &drawing, given, error);
     if (status == TARTAN_OK)
         status = begin(format, drawing.dpi, waiting, &watch, &to, bytes, size, error);
+    if (status == TARTAN_OK)
+        status = take_profile(drawing.profile, &to, error);
     if (status == TARTAN_OK)
         status = gather(tn_api_schema(schema), trays, ends, count, &drawing, &plans, error);
     if (status != TARTAN_OK)
@@ -101,7 +128,7 @@ tartan_status tartan_rules_draw(const tartan_rules *rules, tartan_picture_format
     tn_error found;
     if (!rules)
         return tn_api_missing(error, "rules");
-    tartan_status status = begin(format, 0, waiting, &watch, &to, bytes, size, error);
+    tartan_status status = begin_shown(format, 0, waiting, &watch, &to, bytes, size, error);
     if (status != TARTAN_OK)
         return status;
     size_t count = tartan_rules_count(rules);
@@ -148,7 +175,7 @@ static tartan_status begin_in_space(tartan_picture_format format, const tartan_g
 {
     tartan_status status = TN_API_TAKE(tartan_growth_drawing, &p->drawing, given, error);
     if (status == TARTAN_OK)
-        status = begin(format, p->drawing.dpi, waiting, &p->watch, &p->to, bytes, size, error);
+        status = begin_shown(format, p->drawing.dpi, waiting, &p->watch, &p->to, bytes, size, error);
     return status == TARTAN_OK ? camera_of(&p->drawing, &p->camera, error) : status;
 }
 
@@ -245,7 +272,7 @@ tartan_status tartan_derivation_draw(tartan_mapper *mapper, tartan_picture_forma
     tn_error found;
     tartan_status status = tn_api_derivation(mapper, error);
     if (status == TARTAN_OK)
-        status = begin(format, 0, waiting, &watch, &to, bytes, size, error);
+        status = begin_shown(format, 0, waiting, &watch, &to, bytes, size, error);
     if (status != TARTAN_OK)
         return status;
     tn_status drawn = tn_tree_make(mapper->last.events, mapper->last.event_count, &tree, &found);

@@ -825,12 +825,13 @@ tn_status tn_draw_check(tn_session *session, const tn_draw_request *request)
 /* A file for drawing programs shows nothing by what covers it. */
 static tn_status check_dxf(tn_session *session, const tn_draw_request *r)
 {
-    bool dxf = tn_draw_format(r) == TN_FILE_DXF, plans = tn_subject_of(session->opened->module) == TN_SUBJECT_PLANS &&
-                                                         !of_houses(session, r) && !r->rules.count && !r->front;
-    if (dxf && !plans)
+    bool dxf = tn_draw_format(r) == TN_FILE_DXF, forms = tn_subject_of(session->opened->module) != TN_SUBJECT_PLANS,
+         houses = !forms && of_houses(session, r);
+    if (dxf && (forms || houses || r->rules.count || r->front))
         return tn_session_refuse(session,
-                                 "end its name in .svg, .png or .pdf; `tartan house` and `tartan mesh` "
-                                 "write houses and forms as .dxf",
+                                 forms    ? "end its name in .svg, .png or .pdf; `tartan mesh` writes a form as .dxf"
+                                 : houses ? "end its name in .svg, .png or .pdf; `tartan house` writes a house as .dxf"
+                                          : "end its name in .svg, .png or .pdf",
                                  "a DXF is made of plans, and this draws something else");
     if (!dxf && r->profile)
         return tn_session_refuse(session, "end its name in .dxf, or leave it out",

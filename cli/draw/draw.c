@@ -199,7 +199,7 @@ static bool check_options(tn_job *job)
 {
     const draw_settings *s = settings_of(job);
     if (!s->output)
-        tn_job_usage(job, "say which picture to draw: -o FILE.svg, FILE.png, FILE.pdf or FILE.dxf");
+        tn_job_usage(job, "say which picture to draw: -o FILE.svg, FILE.png or FILE.pdf; of plans also FILE.dxf");
     else if (s->sheet + s->before + s->exploded > 1)
         tn_job_usage(job, "one picture shows one thing: give one of --sheet, --before and --exploded");
     else
@@ -255,7 +255,7 @@ static int run(const tn_command *command, const tn_settings *common)
 
 #define SETTINGS draw_settings
 static const tn_option options[] = {
-    OUTPUT(output, TN_WRITES_PICTURES | TN_WRITES(DXF), "the picture: .svg, .png or .pdf; of plans also .dxf"),
+    OUTPUT(output, TN_WRITES_PICTURES | TN_WRITES_DXF_OF_PLANS, "the picture: .svg, .png or .pdf; of plans also .dxf"),
     LIST("rule", 'r', "NAME", rules, "draw this rule instead of plans; may be repeated"),
     OPTIONS_LIBRARY,
     NUMBER("sample", 0, "N", sample, 1, TN_DRAW_SAMPLE_MAX, "draw N plans sampled from the library"),

@@ -181,11 +181,16 @@ static void draw_plans(tn_job *job, const tn_best_request *best)
 
 /* ---- asked */
 
+static bool is_drawn(const char *path)
+{
+    return path && (TN_WRITES_PICTURES | TN_WRITES(DXF)) >> tn_file_format_of(path) & 1;
+}
+
 static void find_plans(tn_job *job, const tn_best_request *request)
 {
     const tn_written_settings *written = &settings_of(job)->written;
     tn_plan_format format = (tn_plan_format)written->format;
-    if (format == TN_FORMAT_AUTO && tn_job_draws(written->output))
+    if (format == TN_FORMAT_AUTO && is_drawn(written->output))
         draw_plans(job, request);
     else if (format == TN_FORMAT_JSON || format == TN_FORMAT_LINES || (format == TN_FORMAT_AUTO && !written->output))
         list(job, request);
@@ -266,9 +271,9 @@ static const tn_option options[] = {
     TEXT("plan", 0, "PLAN", plan, "the best houses on one plan: a plan in any spelling, or # and its rank"),
     OPTION_PLAN_FORMAT,
     OUTPUT(
-        written.output, TN_WRITES_ROWS | TN_WRITES_PICTURES,
+        written.output, TN_WRITES_ROWS | TN_WRITES_PICTURES | TN_WRITES_DXF_OF_PLANS,
         "write to FILE instead of standard output, as its ending says: .json, .csv, .bin, .sqlite and .db, .parquet, "
-        "or .svg, .png and .pdf, a picture; otherwise as lines"),
+        "or .svg, .png and .pdf, a picture, of plans also .dxf; otherwise as lines"),
     OPTION_MAX_HOUSES(WALKED_HOUSES_HELP),
     OPTIONS_LIBRARY_LIMITS,
     OPTIONS_SEARCH,
@@ -291,7 +296,8 @@ const tn_command tn_command_best = {
         "at. If that passes a limit, the best by one measure are found by search, and a note says if it is not proven "
         "that there is no better one. In lines, a comment before each plan has its values and its rank; in JSON, "
         "\"value\" or \"values\" has "
-        "them exactly, in feet or metres. With -o and the name of a picture (.svg, .png or .pdf) the plans are drawn, "
+        "them exactly, in feet or metres. With -o and the name of a picture (.svg, .png, .pdf or .dxf) the plans are "
+        "drawn, "
         "each "
         "with its place and its values. With --diverse they are plans that differ, as `tartan sample --diverse` "
         "chooses them: the best, and then each time the one of the best 1,000 (or of 20 times N) that differs most "

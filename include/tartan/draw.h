@@ -1,5 +1,6 @@
-/* Pictures in memory: SVG, PNG or PDF, the same bytes for the same input: of an SVG on every machine, of the others for
- * one version of cairo and one set of fonts. A build without the part `draw` has SVG alone (TARTAN_INVALID, E0907). */
+/* Pictures in memory: SVG, PNG or PDF, and of plans DXF, the same bytes for the same input: of SVG and DXF on every
+ * machine, of the others for one version of cairo and one set of fonts. A build without the part `draw` has SVG and DXF
+ * alone (TARTAN_INVALID, E0907). */
 #ifndef TARTAN_DRAW_H
 #define TARTAN_DRAW_H
 
@@ -12,7 +13,12 @@
 extern "C" {
 #endif
 
-typedef enum tartan_picture_format { TARTAN_SVG, TARTAN_PNG, TARTAN_PDF } tartan_picture_format;
+typedef enum tartan_picture_format {
+    TARTAN_SVG,
+    TARTAN_PNG,
+    TARTAN_PDF,
+    TARTAN_DRAWN_DXF /* of plans alone: a drawing to scale, with layers, for drawing programs */
+} tartan_picture_format;
 
 typedef struct tartan_plans_drawing {
     size_t size;
@@ -23,11 +29,13 @@ typedef struct tartan_plans_drawing {
     uint32_t scale;              /* 1:scale; 0: the largest usual one that fits */
     uint32_t columns;            /* plans in a row; 0: as many as fit */
     uint32_t dpi;                /* of a PNG; 0: 150 */
+    const char *profile;         /* by which the layers of a DXF are named: "iso" or "us"; NULL: by the measures */
 } tartan_plans_drawing;
 TARTAN_SIZED(tartan_plans_drawing)
 
 /* Draws plans: `trays` holds them one after another, the i-th ending before trays[ends[i]]. At most 5,000, and a PNG of
- * at most 100 million pixels (TARTAN_LIMIT). `drawing` and `watch` may be NULL. */
+ * at most 100 million pixels (TARTAN_LIMIT). A profile is refused if the picture is no DXF (TARTAN_INVALID). `drawing`
+ * and `watch` may be NULL. */
 TARTAN_API tartan_status tartan_plans_draw(const tartan_schema *schema, const uint32_t *trays, const size_t *ends,
                                            size_t count, tartan_picture_format format,
                                            const tartan_plans_drawing *drawing, const tartan_watch *watch, void **bytes,

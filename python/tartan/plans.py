@@ -340,11 +340,12 @@ class Plans(collections.abc.Sequence):
 
     def draw(self, format: str = "svg", *, title: Optional[str] = None, doc: Optional[str] = None,
              captions: Optional[Iterable[object]] = None, paper: Optional[str] = None, scale: int = 0,
-             columns: int = 0, dpi: int = 0, progress: Progress = None) -> bytes:
-        """A picture of them, at most 5,000, as bytes of "svg", "png" or "pdf"."""
+             columns: int = 0, dpi: int = 0, profile: Optional[str] = None, progress: Progress = None) -> bytes:
+        """A picture of them, at most 5,000, as bytes of "svg", "png", "pdf" or "dxf". profile: by which the layers of a DXF
+        are named, "iso" or "us"; by default as plans are measured."""
         drawing = ffi.new("tartan_plans_drawing *", lib.tartan_plans_drawing_init())
-        kept = [name(title), name(doc), name(paper)]
-        drawing.title, drawing.doc, drawing.paper = kept
+        kept = [name(title), name(doc), name(paper), name(profile)]
+        drawing.title, drawing.doc, drawing.paper, drawing.profile = kept
         if captions is not None:
             captions = [name(str(caption)) for caption in captions]
             if len(captions) != len(self):
@@ -400,7 +401,7 @@ class Measures(collections.abc.Mapping):
         return _html.table(["plan", *heads], rows, f"and {left:,} more" if left else None)
 
 
-FORMATS = {"svg": lib.TARTAN_SVG, "png": lib.TARTAN_PNG, "pdf": lib.TARTAN_PDF}
+FORMATS = {"svg": lib.TARTAN_SVG, "png": lib.TARTAN_PNG, "pdf": lib.TARTAN_PDF, "dxf": lib.TARTAN_DRAWN_DXF}
 
 
 def file_of(function, format, *arguments, drawing=None, progress=None):

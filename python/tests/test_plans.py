@@ -234,6 +234,7 @@ class Shown(unittest.TestCase):
             self.assertIn("<svg", shown._repr_svg_())
         self.assertEqual(rows.sample(3).draw("pdf")[:4], b"%PDF")
         self.assertEqual(rows[3].draw("png")[:4], b"\x89PNG")
+        self.assertIn(b"\nA-ANNO-TTLB\n", rows.sample(3).draw("dxf", profile="us"))
         for shown in (rows, rows.sample(40), rows.sample(40).measure("long"), rows.front(least="long", most="halls"),
                       rows.file, rows.file.test(), rows.explain(rows[0])):
             self.assertIn("<table>", shown._repr_html_())

@@ -88,7 +88,8 @@ static void help_endings(const char *list, tn_file_formats writes, bool picture,
     bool text = writes & TN_WRITES_TEXT;
     const char *draws = text && picture ? "; plans and rules are drawn by `tartan draw`" : "";
     if (list[0])
-        tn_error_help(error, "end its name in %s%s%s", list,
+        tn_error_help(error, "end its name in %s%s%s%s", list,
+                      writes & TN_OF_PLANS_ALONE ? "; of plans also in .dxf" : "",
                       text                        ? "; text has another ending, or none"
                       : writes & TN_WRITES_FOLDER ? "; or name a folder"
                                                   : "",
@@ -111,7 +112,7 @@ tn_status tn_file_ending_check(const char *what, const char *path, tn_file_forma
         tn_fail(error, TN_INVALID, E_USAGE, "the name %.200s does not say what is to be written", path);
     else
         tn_fail(error, TN_INVALID, E_USAGE, "%s cannot be written as %.200s", what, path);
-    list_endings(writes, list, sizeof list);
+    list_endings(writes & TN_OF_PLANS_ALONE ? writes & ~TN_WRITES(DXF) : writes, list, sizeof list);
     help_endings(list, writes, !other && TN_WRITES_PICTURES >> format & 1, error);
     return TN_INVALID;
 }

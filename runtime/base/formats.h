@@ -21,9 +21,12 @@ typedef uint64_t tn_file_formats;
 #define TN_WRITES_PICTURES (TN_WRITES(SVG) | TN_WRITES(PNG) | TN_WRITES(PDF))
 #define TN_WRITES_TEXT (UINT64_C(1) << 62) /* where the ending promises nothing */
 #define TN_WRITES_FOLDER (UINT64_C(1) << 61)
-#define TN_WRITES_STANDARD (UINT64_C(1) << 60) /* "-" is standard output; so it is where text or another name is well  \
-                                                */
-#define TN_WRITES_ASKED (UINT64_C(1) << 63)    /* another name is well, too: an option says what it is of */
+#define TN_WRITES_STANDARD                                                                                             \
+    (UINT64_C(1) << 60)                     /* "-" is standard output; so it is where text or another name is well     \
+                                             */
+#define TN_WRITES_ASKED (UINT64_C(1) << 63) /* another name is well, too: an option says what it is of */
+#define TN_OF_PLANS_ALONE (UINT64_C(1) << 59)
+#define TN_WRITES_DXF_OF_PLANS (TN_WRITES(DXF) | TN_OF_PLANS_ALONE) /* DXF, but not of all else that is drawn */
 
 tn_file_format tn_file_format_of(const char *path);
 

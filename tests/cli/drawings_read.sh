@@ -25,6 +25,8 @@ read_back "$scratch/tones.dxf" meant DIMENSION@A-------D-=30 HATCH@A-99----H-=40
 read_back "$scratch/table.dxf" meant TEXT=49
 "$TARTAN" house "$files/cabins.plan" "#10:77" -o "$scratch/house.dxf" || fail "house.dxf is not written"
 read_back "$scratch/house.dxf" meant DIMENSION=10 HATCH=2 LWPOLYLINE=20
+"$TARTAN" best lahave-houses 5 --least cost -o "$scratch/best.dxf" || fail 'best.dxf is not drawn'
+read_back "$scratch/best.dxf" meant LWPOLYLINE@A-WALL=5 DIMENSION@A-ANNO-DIMS=20
 refused() {
     local words=$1
     shift
@@ -32,6 +34,8 @@ refused() {
     grep -q "$words" "$scratch/said" || fail "$*: $(cat "$scratch/said")"
 }
 refused 'a DXF is made of plans' draw lahave --rule stranded -o "$scratch/rule.dxf"
-refused 'a DXF is made of plans' draw table -o "$scratch/table.dxf"
+refused '`tartan mesh` writes a form as .dxf' draw table -o "$scratch/table.dxf"
+refused 'in .svg, .png or .pdf; of plans also in .dxf' draw table -o "$scratch/table.jpg"
+refused 'cannot be written as' best "$files/cabins.plan" 3 --library cottages --least bedrooms -o "$scratch/best.dxf"
 refused 'names the layers of a DXF' draw lahave-houses --sample 1 --profile us -o "$scratch/feet.svg"
 finish

@@ -190,8 +190,8 @@ static void draws_plans(void **state)
     const size_t ends[] = {2, 3}, wrong[] = {2, 1};
     assert_int_equal(tartan_rules_new(module, NULL, 0, NULL, &rules, &error), TARTAN_OK);
     const tartan_schema *schema = tartan_rules_schema(rules);
-    static const char *const begins[] = {"<?xml", "\x89PNG", "%PDF"};
-    for (int format = TARTAN_SVG; format <= TARTAN_PDF; format++) {
+    static const char *const begins[] = {"<?xml", "\x89PNG", "%PDF", "0\nSECTION"};
+    for (int format = TARTAN_SVG; format <= TARTAN_DRAWN_DXF; format++) {
         assert_int_equal(
             tartan_plans_draw(schema, trays, ends, 2, (tartan_picture_format)format, NULL, NULL, &bytes, &size, &error),
             TARTAN_OK);
@@ -200,6 +200,18 @@ static void draws_plans(void **state)
         bytes = NULL;
     }
     tartan_plans_drawing drawing = tartan_plans_drawing_init();
+    drawing.profile = "us";
+    assert_int_equal(tartan_plans_draw(schema, trays, ends, 2, TARTAN_SVG, &drawing, NULL, &bytes, &size, &error),
+                     TARTAN_INVALID);
+    assert_int_equal(tartan_plans_draw(schema, trays, ends, 2, TARTAN_DRAWN_DXF, &drawing, NULL, &bytes, &size, &error),
+                     TARTAN_OK);
+    assert_non_null(strstr(bytes, "\nA-ANNO-TTLB\n"));
+    tartan_bytes_free(bytes);
+    bytes = NULL;
+    drawing.profile = "din";
+    assert_int_equal(tartan_plans_draw(schema, trays, ends, 2, TARTAN_DRAWN_DXF, &drawing, NULL, &bytes, &size, &error),
+                     TARTAN_INVALID);
+    drawing.profile = NULL;
     drawing.paper = "napkin";
     assert_int_equal(tartan_plans_draw(schema, trays, ends, 2, TARTAN_SVG, &drawing, NULL, &bytes, &size, &error),
                      TARTAN_INVALID);

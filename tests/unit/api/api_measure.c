@@ -381,6 +381,7 @@ static void draws_rules(void **state)
     assert_int_equal(tartan_rules_draw(rules, TARTAN_SVG, NULL, &bytes, &size, NULL), TARTAN_OK);
     assert_true(size > 100 && memcmp(bytes, "<?xml", 5) == 0);
     tartan_bytes_free(bytes);
+    assert_int_equal(tartan_rules_draw(rules, TARTAN_DRAWN_DXF, NULL, &bytes, &size, NULL), TARTAN_INVALID);
     assert_int_equal(tartan_rules_draw(NULL, TARTAN_SVG, NULL, &bytes, &size, NULL), TARTAN_INVALID);
     assert_int_equal(tartan_rules_draw(rules, (tartan_picture_format)9, NULL, &bytes, &size, NULL), TARTAN_INVALID);
     tartan_rules_free(rules);
