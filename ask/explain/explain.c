@@ -8,6 +8,7 @@
 
 #include "ask/house/numbered.h"
 #include "ask/plan/match.h"
+#include "ask/plan/searched.h"
 #include "ask/session/made.h"
 #include "ask/session/questions.h"
 #include "ask/session/spelled.h"
@@ -175,23 +176,48 @@ static tn_status try_finder(tn_session *session, tn_plan_explainer *explainer, t
     explainer->tried_nearest = status == TN_OK || status == TN_LIMIT;
     if (status != TN_LIMIT)
         return status;
+    if (tn_plan_search_is_there())
+        tn_session_note(session, "nearest plans are found by search, since %.400s", error->message);
+    else
+        note_limit(session, error, "so nearest plans are not known");
+    return TN_OK;
+}
+
+/* If the automata of clauses pass a limit, or the way through them does. */
+static tn_status search_near(tn_session *session, tn_plan_explainer *explainer, const tn_explain_request *request,
+                             size_t most, tn_explained *explained, tn_error *error)
+{
+    const tn_search_options options = tn_asked_search(&request->subject, &request->search);
+    tn_plan_search *search;
+    tn_status status =
+        tn_plan_search_new(explainer->schema, library_index(session, explainer), &options, &search, error);
+    if (status != TN_OK)
+        return status;
+    status = tn_explained_search_near(explained, search, most, error);
+    tn_plan_search_free(search);
+    if (status != TN_LIMIT)
+        return status;
     note_limit(session, error, "so nearest plans are not known");
     return TN_OK;
 }
 
-static tn_status find_near(tn_session *session, tn_plan_explainer *explainer, size_t most, tn_explained *explained,
-                           tn_error *error)
+static tn_status find_near(tn_session *session, tn_plan_explainer *explainer, const tn_explain_request *request,
+                           tn_explained *explained, tn_error *error)
 {
+    size_t most = request->has_nearest ? (size_t)request->nearest : TN_NEAREST_DEFAULT;
     if (most == 0 || !explainer->record || explained->kept)
         return TN_OK;
     tn_status status = try_finder(session, explainer, error);
-    if (status != TN_OK || !explainer->finder)
-        return status;
-    status = tn_explained_near(explained, explainer->finder, most, error);
-    if (status != TN_LIMIT)
-        return status;
-    tn_finding_note(session->opened, error);
-    return TN_OK;
+    if (status == TN_OK && explainer->finder) {
+        status = tn_explained_near(explained, explainer->finder, most, error);
+        if (status != TN_LIMIT)
+            return status;
+        tn_finding_note(session->opened, error);
+        status = TN_OK;
+    }
+    return status == TN_OK && tn_plan_search_is_there()
+               ? search_near(session, explainer, request, most, explained, error)
+               : status;
 }
 
 /* ---- the plan */
@@ -523,8 +549,7 @@ static tn_status explain(tn_session *session, const tn_explain_request *request,
     if (status == TN_OK && !request->no_ranks)
         status = try_library(session, explainer, error);
     explained->automaton = explainer->library;
-    size_t most = request->has_nearest ? (size_t)request->nearest : TN_NEAREST_DEFAULT;
-    return status == TN_OK ? find_near(session, explainer, most, explained, error) : status;
+    return status == TN_OK ? find_near(session, explainer, request, explained, error) : status;
 }
 
 static tn_status explain_plan(tn_session *session, const tn_explain_request *request, tn_reply *answer)

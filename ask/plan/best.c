@@ -338,8 +338,11 @@ static tn_status best_plans(tn_session *session, const tn_best_request *request,
         return refuse_many(session, wanted, TN_DIVERSE_MAX, "plans");
     bool simple = request->by.count <= 1 && !request->diverse && !request->mirror; /* enough to be searched */
     tn_error limit;
-    tn_status status = simple ? tn_session_searched(session, &request->subject, false, &s.ready, &limit)
-                              : tn_session_library(session, &request->subject, &s.ready);
+    tn_status status = simple
+                           ? tn_session_searched(session, &request->subject, false, &s.ready, &limit)
+                           : tn_searched_instead(session, tn_session_library(session, &request->subject, &s.ready),
+                                                 "by one measure, without --diverse and --mirror, `best` finds plans "
+                                                 "of such a library by search; by several, `pareto` does");
     if (status == TN_OK)
         status = take_wishes(&s);
     if (status != TN_OK)
@@ -720,16 +723,83 @@ static tn_status give_front(tn_session *session, tn_found_front *front, tn_error
     return status;
 }
 
+/* ---- plans that are searched */
+
+static tn_status set_searched(const tn_schema *schema, const tn_wishes *wishes, tn_searched_point *from,
+                              tn_front_point *point, tn_error *error)
+{
+    tn_status status = set_values(wishes, from->values, point, error);
+    point->has_plan = true;
+    return status == TN_OK ? tn_found_plan_texts(schema, from->trays, from->length, &point->plan, NULL, error) : status;
+}
+
+static tn_status give_searched_front(const tn_ready_library *ready, const tn_wishes *wishes, tn_searched_front *found,
+                                     tn_reply *answer, tn_error *error)
+{
+    tn_status status = tn_reply_new(&tn_message_found_front, answer, error);
+    if (status != TN_OK)
+        return status;
+    tn_found_front *front = answer->value;
+    front->has_proven = true;
+    front->proven = found->proven;
+    status = name_measures(wishes, front, error);
+    if (status == TN_OK)
+        status = TN_NEW_LIST(front_point, front->points, found->count, error);
+    for (size_t i = 0; status == TN_OK && i < found->count; i++)
+        status = set_searched(ready->schema, wishes, &found->points[i], &front->points.items[i], error);
+    return status;
+}
+
+/* A quotient's automaton alone has its values. */
+static bool is_quotient(const tn_module *module, const tn_wishes *wishes)
+{
+    bool any = false;
+    for (uint32_t k = 0; k < wishes->count; k++)
+        any |= tn_named_measure_over(module, wishes->measures[k]) != TN_NO_RECORD;
+    return any;
+}
+
+static tn_status search_front(tn_session *session, const tn_pareto_request *request, const tn_ready_library *ready,
+                              const tn_wishes *wishes, const tn_error *limit, tn_reply *answer)
+{
+    const tn_module *module = session->opened->module;
+    uint32_t sums[TN_WEIGHED_MAX];
+    tn_searched_front found = {0};
+    tn_plan_search *search;
+    tn_error error;
+    if (is_quotient(module, wishes))
+        return tn_session_fail(session, limit);
+    for (uint32_t k = 0; k < wishes->count; k++)
+        sums[k] = tn_named_measure_sum(module, ready->record, wishes->measures[k]);
+    tn_searched_note(session, limit);
+    tn_status status = tn_searched_new(session, ready, &request->subject, &request->search, &search);
+    if (status != TN_OK)
+        return status;
+    tn_session_begins(session, "looking for the front");
+    status = tn_plan_search_front(search, sums, wishes->most, wishes->count, &found, &error);
+    tn_session_ends(session);
+    tn_plan_search_free(search);
+    if (status == TN_OK && !found.proven)
+        tn_session_note(session, "it is not proven within --max-conflicts that no plan betters one of these, and that "
+                                 "none is missing");
+    if (status == TN_OK)
+        status = give_searched_front(ready, wishes, &found, answer, &error);
+    tn_searched_front_clear(&found);
+    return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
+}
+
 static tn_status front_of_plans(tn_session *session, const tn_pareto_request *request, tn_reply *answer)
 {
     const tn_ready_library *ready;
     tn_wishes wishes;
-    tn_error error;
-    tn_status status = tn_session_library(session, &request->subject, &ready);
+    tn_error error, limit;
+    tn_status status = tn_session_searched(session, &request->subject, false, &ready, &limit);
     if (status == TN_OK)
         status = tn_wishes_of_plans(session, ready, request->by.items, request->by.count, 2, &wishes);
     if (status != TN_OK)
         return status;
+    if (!ready->library)
+        return search_front(session, request, ready, &wishes, &limit, answer);
     status = tn_reply_new(&tn_message_found_front, answer, &error);
     if (status == TN_OK) {
         tn_found_front *front = answer->value;

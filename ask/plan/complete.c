@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "ask/plan/best.h"
+#include "ask/plan/searched.h"
 #include "ask/session/made.h"
 #include "ask/session/questions.h"
 #include "driver/open/digits.h"
@@ -445,13 +446,162 @@ static tn_status find_plans(tn_open_choices *c, const tn_ready_library *ready, t
     return status;
 }
 
+/* ---- plans that are searched */
+
+/* Joins the values of a field that the trays of an open plan's part may have; false: any value. */
+static bool values_written(const tn_schema *schema, const tn_open_tray *part, uint32_t field, bool *may,
+                           tn_buffer *text)
+{
+    uint32_t count = schema->fields[field].value_count, some = 0;
+    for (uint32_t v = 0; v < count; v++)
+        may[v] = false;
+    for (tn_tray t = 0; t < schema->tray_count; t++)
+        may[tn_tray_value(schema, t, field)] |= part->fits[t];
+    for (uint32_t v = 0; v < count; v++) {
+        if (may[v])
+            tn_buffer_printf(text, "%s%s", some++ ? " or " : "",
+                             tn_text(schema->module, schema->values[schema->value_start[field] + v].spelling));
+    }
+    return some < count;
+}
+
+typedef struct open_search {
+    tn_session *session;
+    const tn_complete_request *request;
+    const tn_ready_library *ready;
+    const tn_open_choices *choices;
+} open_search;
+
+static tn_status find_beginning(const open_search *o, const tn_open_plan *open, bool *any, size_t *parts,
+                                tn_error *error)
+{
+    const tn_search_options options = tn_asked_search(&o->request->subject, &o->request->search);
+    tn_plan_search *search;
+    tn_status status = tn_plan_search_new(o->ready->schema, o->ready->index, &options, &search, error);
+    if (status != TN_OK)
+        return status;
+    status = tn_plan_search_beginning(search, open, any, parts, error);
+    tn_plan_search_free(search);
+    return status;
+}
+
+/* Does a field of the last part leave no plan by itself? Then says so. */
+static tn_status say_value(const open_search *o, tn_open_tray *parts, size_t count, uint32_t field, uint32_t tray,
+                           tn_buffer *text, tn_error *error)
+{
+    const tn_schema *schema = o->choices->schema;
+    tn_open_tray *last = &parts[count - 1];
+    const tn_open_tray written = *last;
+    bool may[TN_FIELD_VALUES_MAX], any = false;
+    size_t found = count;
+    tn_buffer values = {0};
+    bool *fits = calloc((size_t)schema->tray_count + 1, sizeof *fits);
+    tn_status status = fits ? TN_OK : tn_fail_memory(error);
+    if (status == TN_OK && values_written(schema, &written, field, may, &values)) {
+        for (tn_tray t = 0; t < schema->tray_count; t++)
+            fits[t] = may[tn_tray_value(schema, t, field)];
+        *last = (tn_open_tray){.fits = fits};
+        status = find_beginning(o, &(tn_open_plan){.trays = parts, .count = count}, &any, &found, error);
+        *last = written;
+    }
+    if (status == TN_OK && found < count)
+        tn_buffer_printf(text, "`%s` of tray %u alone leaves none: its %s is something else\n",
+                         values.data ? values.data : "", tray, tn_text(schema->module, schema->fields[field].name));
+    free(values.data);
+    free(fits);
+    return status;
+}
+
+/* The part at `at` is the first with which none goes on. */
+static tn_status say_part(const open_search *o, size_t at, tn_buffer *text, tn_error *error)
+{
+    const tn_open_plan *open = &o->choices->open;
+    tn_open_tray *parts = calloc(open->count + 1, sizeof *parts);
+    uint32_t tray = 0;
+    if (!parts)
+        return tn_fail_memory(error);
+    for (size_t i = 0; i <= at; i++) {
+        parts[i] = open->trays[i];
+        tray += !parts[i].gap;
+    }
+    if (tray == 1)
+        tn_buffer_printf(text, "no plan of the library has tray 1 as it is written\n");
+    else
+        tn_buffer_printf(text, "plans fit what is written before tray %u, and none of them goes on with it\n", tray);
+    tn_status status = TN_OK;
+    for (uint32_t f = 0; status == TN_OK && f < o->choices->schema->field_count; f++)
+        status = say_value(o, parts, at + 1, f, tray, text, error);
+    free(parts);
+    return status;
+}
+
+static tn_status say_why_none(const open_search *o, tn_buffer *text, tn_error *error)
+{
+    const tn_open_plan *open = &o->choices->open;
+    bool any = false;
+    size_t parts = 0;
+    tn_status status = find_beginning(o, open, &any, &parts, error);
+    if (status == TN_OK && !any)
+        tn_buffer_printf(text, "the library holds no plan at all\n");
+    else if (status == TN_OK && parts == open->count)
+        tn_buffer_printf(text, "plans begin so, and all have more trays: `| ...` at the end lets them\n");
+    else if (status == TN_OK)
+        status = say_part(o, parts, text, error);
+    if (text->size > 0)
+        text->data[--text->size] = '\0';
+    return status == TN_OK && text->failed ? tn_fail_memory(error) : status;
+}
+
+enum { COMPLETIONS_SHOWN = 10 };
+
+static tn_status find_first(const open_search *o, tn_plan_search *search, tn_completed_searched *to, tn_error *error)
+{
+    tn_searched_lines lines = {.schema = o->ready->schema, .lines = &to->first, .most = COMPLETIONS_SHOWN};
+    tn_buffer why = {0};
+    tn_plan_search_narrow(search, &o->choices->open);
+    tn_status status = tn_searched_list(o->session, search, &lines, error);
+    to->more = lines.more;
+    if (status != TN_OK || to->first.count > 0)
+        return status;
+    status = say_why_none(o, &why, error);
+    to->has_why_none = why.data != NULL;
+    to->why_none = why.data;
+    return status;
+}
+
+static tn_status complete_searched(const open_search *o, const tn_error *limit, tn_reply *answer)
+{
+    tn_plan_search *search;
+    tn_error error;
+    if (o->request->by.count > 0) {
+        tn_session_fail(o->session, limit);
+        tn_session_note(o->session,
+                        "`best` finds the best of the plans that complete it by search, with the further requirement "
+                        "`plan [PATTERN]` (--where)");
+        return limit->status;
+    }
+    if (tn_answer_has_picture(&o->request->drawn))
+        return tn_session_refuse(o->session, "leave out the picture, or give fewer trays with --trays",
+                                 "what completes an open plan is drawn with its counts, and a library that is searched "
+                                 "has none");
+    tn_searched_note(o->session, limit);
+    tn_status status = tn_searched_new(o->session, o->ready, &o->request->subject, &o->request->search, &search);
+    if (status != TN_OK)
+        return status;
+    status = tn_reply_new(&tn_message_completed_searched, answer, &error);
+    if (status == TN_OK)
+        status = find_first(o, search, answer->value, &error);
+    tn_plan_search_free(search);
+    return status == TN_OK ? TN_OK : tn_session_fail(o->session, &error);
+}
+
 static tn_status complete_plans(tn_session *session, const tn_complete_request *request, tn_reply *answer)
 {
     const tn_module *module = session->opened->module;
     const tn_ready_library *ready;
     tn_wishes wishes;
-    tn_error error;
-    tn_status status = tn_session_library(session, &request->subject, &ready);
+    tn_error error, limit;
+    tn_status status = tn_session_searched(session, &request->subject, false, &ready, &limit);
     if (status == TN_OK)
         status = tn_wishes_of_plans(session, ready, request->by.items, request->by.count, 0, &wishes);
     if (status != TN_OK)
@@ -466,7 +616,9 @@ static tn_status complete_plans(tn_session *session, const tn_complete_request *
     c->doc = tn_text(module, ready->record->doc);
     c->wishes = wishes;
     status = read_open(session, request, c);
-    if (status != TN_OK) {
+    if (status == TN_OK && !ready->library)
+        status = complete_searched(&(open_search){session, request, ready, c}, &limit, answer);
+    if (status != TN_OK || !ready->library) {
         free_choices(c);
         return status;
     }

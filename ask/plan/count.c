@@ -4,6 +4,7 @@
 
 #include "ask/house/numbered_count.h"
 #include "ask/place/kit.h"
+#include "ask/plan/searched.h"
 #include "ask/plan/ways.h"
 #include "ask/session/made.h"
 #include "ask/session/questions.h"
@@ -397,7 +398,11 @@ static tn_status count_plans(tn_session *session, const tn_count_request *reques
     if (status == TN_OK && tn_schema_of_plans(c.ready->schema)) /* rows of plans are counted state by state */
         status = tn_session_library(session, &request->subject, &c.ready);
     if (status != TN_OK)
-        return status;
+        return tn_searched_instead(
+            session, status,
+            "how many plans there are is not known past this limit. `enumerate`, `sample`, `best`, "
+            "`pareto`, `complete` and `diff` find plans of such a library by search, or that there "
+            "is none");
     status = tn_reply_new(&tn_message_counted_plans, answer, &error);
     c.counted = answer->value;
     if (status == TN_OK)

@@ -8,6 +8,7 @@
 #include "ask/house/compared.h"
 #include "ask/plan/draw.h"
 #include "ask/plan/found.h"
+#include "ask/plan/searched.h"
 #include "ask/plan/weights.h"
 #include "ask/session/made.h"
 #include "ask/session/questions.h"
@@ -571,22 +572,105 @@ static tn_status compare(const comparing *c, tn_plan_diff *d, tn_compared *to, t
                            : status;
 }
 
-static tn_status diff_plans(comparing *c, tn_reply *answer)
+/* Both libraries have automata; *over: comparing them passes a limit of states, and *limit says which. */
+static tn_status compare_exactly(const comparing *c, bool *over, tn_error *limit, tn_reply *answer)
 {
-    tn_error error;
-    tn_status status = tn_session_library(c->other, &c->request->subject, &c->before);
-    if (status == TN_OK)
-        status = tn_session_library(c->session, &c->request->subject, &c->after);
-    if (status != TN_OK)
-        return status;
-    status = tn_reply_new(&tn_message_compared, answer, &error);
+    tn_status status = tn_reply_new(&tn_message_compared, answer, limit);
     if (status == TN_OK) {
         tn_compared *to = answer->value;
         tn_plan_diff *d = calloc(1, sizeof *d);
         to->shown = (tn_boxed){d, free_diff};
-        status = d ? compare(c, d, to, &error) : tn_fail_memory(&error);
+        status = d ? compare(c, d, to, limit) : tn_fail_memory(limit);
     }
-    return status == TN_OK ? TN_OK : tn_session_fail(c->session, &error);
+    *over = status == TN_LIMIT && limit->code == E_TOO_MANY_STATES && tn_plan_search_is_there();
+    return status == TN_OK || *over ? status : tn_session_fail(c->session, limit);
+}
+
+/* ---- libraries that are searched */
+
+/* What the fields, values and trays of one library are in the other. */
+static tn_status make_map(const tn_schema *from, const tn_schema *to, uint32_t *fields, uint8_t *values,
+                          tn_tray **trays, tn_error *error)
+{
+    tn_status status = fields && values ? tn_tray_map(from, to, trays, error) : tn_fail_memory(error);
+    return status == TN_OK ? tn_field_map(from, to, fields, values, error) : status;
+}
+
+/* The first plans that one library keeps and the other does not. */
+static tn_status find_only(const comparing *c, const tn_ready_library *one, const tn_ready_library *other,
+                           tn_compared_found *to, tn_error *error)
+{
+    const tn_diff_request *r = c->request;
+    const tn_search_options options = tn_asked_search(&r->subject, &r->search);
+    tn_searched_lines lines = {.schema = one->schema,
+                               .lines = &to->plans,
+                               .most = 1 + (r->has_sample ? (size_t)r->sample : TN_DIFF_SHOWN),
+                               .notes_limit = true};
+    uint32_t *fields = calloc((size_t)one->schema->field_count + 1, sizeof *fields);
+    uint8_t *values = calloc((size_t)one->schema->value_count + 1, 1);
+    tn_tray *trays = NULL;
+    tn_plan_search *search = NULL, *without = NULL;
+    tn_status status = make_map(one->schema, other->schema, fields, values, &trays, error);
+    if (status == TN_OK)
+        status = tn_plan_search_new(one->schema, one->index, &options, &search, error);
+    if (status == TN_OK)
+        status = tn_plan_search_new(other->schema, other->index, &options, &without, error);
+    const tn_search_other left_out = {without, fields, values, trays};
+    if (status == TN_OK) {
+        tn_plan_search_leave_out(search, &left_out);
+        status = tn_searched_list(c->session, search, &lines, error);
+        to->more = lines.more;
+    }
+    tn_plan_search_free(search);
+    tn_plan_search_free(without);
+    free(fields);
+    free(values);
+    free(trays);
+    return status;
+}
+
+static tn_status compare_searched(const comparing *c, const tn_error *limit, tn_reply *answer)
+{
+    tn_error error;
+    if (tn_answer_has_picture(&c->request->drawn))
+        return tn_session_refuse(c->session, "leave out the picture, or give fewer trays with --trays",
+                                 "what changes is drawn with its counts, and libraries that are searched have none");
+    tn_searched_note(c->session, limit);
+    tn_status status = tn_reply_new(&tn_message_compared_searched, answer, &error);
+    if (status != TN_OK)
+        return tn_session_fail(c->session, &error);
+    tn_compared_searched *to = answer->value;
+    to->before = (tn_compared_library){c->request->before, tn_text(c->before->schema->module, c->before->record->name)};
+    to->after =
+        (tn_compared_library){c->session->opened->path, tn_text(c->after->schema->module, c->after->record->name)};
+    tn_session_begins(c->session, "looking for plans that differ");
+    status = find_only(c, c->before, c->after, &to->removed, &error);
+    if (status == TN_OK)
+        status = find_only(c, c->after, c->before, &to->added, &error);
+    tn_session_ends(c->session);
+    if (status == TN_OK)
+        return TN_OK;
+    error.code_offset = TN_NO_OFFSET;
+    return tn_session_fail(c->session, &error);
+}
+
+static tn_status diff_plans(comparing *c, tn_reply *answer)
+{
+    const tn_library_asked *asked = &c->request->subject;
+    tn_error limits[2];
+    bool over = false;
+    tn_status status = tn_session_searched(c->other, asked, false, &c->before, &limits[0]);
+    if (status == TN_OK)
+        status = tn_session_searched(c->session, asked, false, &c->after, &limits[1]);
+    if (status != TN_OK)
+        return status;
+    if (!c->before->library || !c->after->library)
+        return compare_searched(c, &limits[c->before->library != NULL], answer);
+    status = compare_exactly(c, &over, &limits[0], answer);
+    if (!over)
+        return status;
+    tn_reply_clear(answer);
+    return compare_searched(c, &limits[0], answer);
 }
 
 tn_status tn_ask_diff(tn_session *session, const tn_diff_request *request, tn_reply *answer)

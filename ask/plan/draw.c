@@ -313,7 +313,11 @@ static tn_status draw_front(tn_session *session, const tn_draw_request *request,
     tn_reply found;
     tn_error error;
     tn_status status = tn_ask_pareto(session, &asked, &found);
-    if (status == TN_OK) {
+    if (status == TN_OK && !((tn_found_front *)found.value)->shown.value) {
+        status = tn_session_refuse(session, "leave out -o, or give fewer trays with --trays",
+                                   "the front of a library that is searched is not drawn, since it stands over the "
+                                   "counts of all plans");
+    } else if (status == TN_OK) {
         const tn_plan_front *f = ((tn_found_front *)found.value)->shown.value;
         const tn_shown_front shown = {f->ready,       f->wishes.count, f->wishes.measures,
                                       f->wishes.most, f->weighed,      &f->front};

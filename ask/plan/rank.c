@@ -5,6 +5,7 @@
 #include "ask/house/numbered.h"
 #include "ask/plan/found.h"
 #include "ask/plan/plan_rows.h"
+#include "ask/plan/searched.h"
 #include "ask/plan/ways.h"
 #include "ask/session/questions.h"
 #include "ask/session/spelled.h"
@@ -128,7 +129,11 @@ static tn_status rank_plan(tn_session *session, const tn_rank_request *request, 
     const tn_ready_library *ready;
     tn_plan plan = {0};
     size_t longest = tn_asked_length(&request->subject);
-    tn_status status = tn_session_library(session, &request->subject, &ready);
+    tn_status status =
+        tn_searched_instead(session, tn_session_library(session, &request->subject, &ready),
+                            "a rank counts the plans before a plan. `explain` says without it whether the "
+                            "library keeps a plan, and `enumerate` finds the first plans by search, with "
+                            "their ranks");
     if (status == TN_OK)
         status = tn_session_plan(session, ready->schema, request->plan, longest, &plan);
     if (status == TN_OK)
@@ -202,7 +207,10 @@ static tn_status unrank_plan(tn_session *session, const tn_unrank_request *reque
     tn_error error;
     uint32_t length;
     mpz_t rank;
-    tn_status status = tn_session_library(session, &request->subject, &ready);
+    tn_status status =
+        tn_searched_instead(session, tn_session_library(session, &request->subject, &ready),
+                            "a rank counts the plans before a plan. `enumerate` finds the first plans by "
+                            "search, with their ranks, and `sample` others without");
     if (status != TN_OK)
         return status;
     tn_tray *trays = malloc(sizeof *trays * ((size_t)tn_library_max(ready->library) + 1));

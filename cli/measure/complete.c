@@ -12,6 +12,7 @@
 typedef struct complete_settings {
     tn_settings common;
     tn_plan_settings plans;
+    tn_search_settings search;
     tn_option_list wanted; /* wishes */
     bool json;
     const char *output;
@@ -70,19 +71,37 @@ static void write_text(const tn_open_choices *c, const char *why_none, FILE *out
 
 /* ---- the command */
 
+/* Of plans that are searched. */
+static void write_searched(const tn_completed_searched *completed, FILE *out)
+{
+    size_t count = completed->first.count;
+    if (count == 0)
+        fputs("no plan completes it\n", out);
+    else
+        fprintf(out, "the first plan%s that complete%s it%s\n", count == 1 ? "" : "s", count == 1 ? "s" : "",
+                completed->more ? "" : "; there are no others");
+    for (size_t i = 0; i < count; i++)
+        fprintf(out, "%s\n", completed->first.items[i]);
+    if (completed->has_why_none)
+        fprintf(out, "%s\n", completed->why_none);
+}
+
 static void show(tn_job *job, const tn_reply *answer)
 {
     const complete_settings *settings = settings_of(job);
     const tn_completed *counted = TN_REPLY(completed, answer);
     const tn_completed_by *weighed = TN_REPLY(completed_by, answer);
-    const tn_open_choices *choices = counted ? counted->shown.value : weighed->shown.value;
+    const tn_completed_searched *searched = TN_REPLY(completed_searched, answer);
     tn_output output;
     tn_job_show(job);
     if (!tn_job_draws(settings->output) && tn_job_output(job, settings->output, &output)) {
         if (settings->json)
             tn_job_write_json(answer, output.stream);
+        else if (searched)
+            write_searched(searched, output.stream);
         else
-            write_text(choices, counted ? counted->why_none : weighed->why_none, output.stream);
+            write_text(counted ? counted->shown.value : weighed->shown.value,
+                       counted ? counted->why_none : weighed->why_none, output.stream);
         tn_job_commit(job, &output);
     }
 }
@@ -99,6 +118,7 @@ static void complete(tn_job *job, const char *pattern)
     const tn_complete_request request = {.subject = tn_job_asked(&settings->plans),
                                          .pattern = pattern,
                                          .by = {wished.items, wished.count},
+                                         .search = tn_search_settings_asked(&settings->search),
                                          .drawn = {.picture = tn_answer_picture_choice(settings->output)}};
     tn_job_files(job, &outputs, &settings->output, 1, false);
     if (tn_job_answered(job, tn_ask_complete(&job->session, &request, &answer)))
@@ -127,6 +147,7 @@ static const tn_option options[] = {
     FLAG("json", 0, json, "write JSON, every count as a string of digits"),
     OPTION_OUTPUT_OR_PICTURE,
     OPTIONS_LIBRARY_LIMITS,
+    OPTIONS_SEARCH,
 };
 
 const tn_command tn_command_complete = {

@@ -10,6 +10,7 @@
 typedef struct pareto_settings {
     tn_settings common;
     tn_plan_settings plans;
+    tn_search_settings search;
     tn_option_list wanted; /* wishes */
     bool json;
     const char *output;
@@ -28,10 +29,11 @@ static void write_text(const tn_found_front *front, bool houses, FILE *out)
     fprintf(out, "  %20s  %s\n", houses ? "houses" : "plans", "the first of them");
     for (size_t i = 0; i < front->points.count; i++) {
         const tn_front_point *point = &front->points.items[i];
-        char *count = tn_digits(houses ? point->houses : point->plans, true);
+        bool known = houses || point->has_plans; /* not of plans that are searched */
+        char *count = known ? tn_digits(houses ? point->houses : point->plans, true) : NULL;
         for (size_t k = 0; k < point->shown.count; k++)
             fprintf(out, "%18s", point->shown.items[k]);
-        fprintf(out, "  %20s  %s\n", count ? count : "?", houses ? point->house : point->plan);
+        fprintf(out, "  %20s  %s\n", count ? count : known ? "?" : "-", houses ? point->house : point->plan);
         free(count);
     }
 }
@@ -66,7 +68,10 @@ static void pareto(tn_job *job)
     tn_wished wished;
     if ((settings->json && !tn_job_takes_text(job, output)) || !tn_job_wishes(job, &settings->wanted, 2, &wished))
         return;
-    const tn_pareto_request request = {.subject = subject, .by = {wished.items, wished.count}, .plan = settings->plan};
+    const tn_pareto_request request = {.subject = subject,
+                                       .by = {wished.items, wished.count},
+                                       .search = tn_search_settings_asked(&settings->search),
+                                       .plan = settings->plan};
     const tn_draw_request drawn = {.format = tn_picture_choice(output),
                                    .subject = subject,
                                    .front = true,
@@ -99,6 +104,7 @@ static const tn_option options[] = {
     OPTION_OUTPUT_OR_PICTURE,
     OPTION_MAX_HOUSES(WALKED_HOUSES_HELP),
     OPTIONS_LIBRARY_LIMITS,
+    OPTIONS_SEARCH,
 };
 
 const tn_command tn_command_pareto = {

@@ -184,9 +184,33 @@ static void diff_text(const tn_compared *c, FILE *out)
     }
 }
 
+/* Of libraries that are searched. */
+static void write_found(const char *kind, const tn_compared_found *found, FILE *out)
+{
+    size_t count = found->plans.count;
+    if (count == 0)
+        fprintf(out, "\n%s: none%s\n", kind, found->more ? " was found" : "");
+    else
+        fprintf(out, "\n%s, %s:\n", kind, found->more ? "the first" : "all");
+    for (size_t i = 0; i < count; i++)
+        fprintf(out, "%s\n", found->plans.items[i]);
+}
+
+static void searched_text(const tn_compared_searched *c, FILE *out)
+{
+    bool same = c->removed.plans.count + c->added.plans.count == 0 && !c->removed.more && !c->added.more;
+    fprintf(out, "%s of %s, ", c->before.library, c->before.file);
+    if (strcmp(c->before.library, c->after.library) != 0)
+        fprintf(out, "%s of ", c->after.library);
+    fprintf(out, "%s: %s\n", c->after.file, same ? "the same plans" : "what changes");
+    write_found(kinds[REMOVED], &c->removed, out);
+    write_found(kinds[ADDED], &c->added, out);
+}
+
 typedef struct diff_settings {
     tn_settings common;
     tn_plan_settings plans;
+    tn_search_settings search;
     tn_option_number sample, seed;
     bool json, without_measures;
     const char *output, *title;
@@ -204,6 +228,8 @@ static void write(tn_job *job, const tn_reply *answer, bool json)
         return;
     if (json)
         tn_job_write_json(answer, output.stream);
+    else if (TN_REPLY(compared_searched, answer))
+        searched_text(answer->value, output.stream);
     else
         diff_text(answer->value, output.stream);
     tn_job_commit(job, &output);
@@ -242,6 +268,7 @@ static void compare(tn_job *job, tn_session *before)
                                      .sample = settings->sample.value,
                                      .seed = settings->seed.value,
                                      .no_measures = settings->without_measures,
+                                     .search = tn_search_settings_asked(&settings->search),
                                      .drawn = {.picture = tn_answer_picture_choice(settings->output)},
                                      .title = settings->title};
     tn_made_outputs outputs;
@@ -291,6 +318,7 @@ static const tn_option options[] = {
     TEXT("title", 0, "TEXT", title, "the picture's title"),
     OPTION_MAX_HOUSES("the most houses that are compared one by one (default 1000000)"),
     OPTIONS_LIBRARY_LIMITS,
+    OPTIONS_SEARCH,
 };
 
 const tn_command tn_command_diff = {

@@ -145,6 +145,7 @@ typedef struct explain_settings {
     bool full, json;
     const char *output;
     tn_option_number nearest, dpi, max_boxes;
+    tn_search_settings search;
 } explain_settings;
 
 static const explain_settings *settings_of(const tn_job *job)
@@ -167,6 +168,7 @@ static tn_explain_request request_of(const explain_settings *s)
         .rules = {s->rules.items, s->rules.count},
         .has_nearest = s->nearest.given,
         .nearest = s->nearest.value,
+        .search = tn_search_settings_asked(&s->search),
         .drawn = {.picture = tn_answer_picture_choice(s->output), .has_dpi = s->dpi.given, .dpi = s->dpi.value},
         .full = s->full,
         .solid = {.solid = s->solid, .has_max_boxes = s->max_boxes.given, .max_boxes = s->max_boxes.value}};
@@ -418,6 +420,7 @@ static const tn_option options[] = {
     OPTION_INPUT_FORMAT,
     OPTION_MAX_LENGTH,
     OPTION_MAX_STATES,
+    OPTIONS_SEARCH,
     OPTION_MAX_BOXES(max_boxes),
 };
 

@@ -951,6 +951,38 @@ tn_status tn_explained_near(tn_explained *explained, tn_near_finder *finder, siz
     return status;
 }
 
+/* Takes the plans over. */
+static tn_status take_near(tn_near *near, tn_searched_plans *found, tn_error *error)
+{
+    near->plans = calloc(found->count + 1, sizeof *near->plans);
+    if (!near->plans)
+        return tn_fail_memory(error);
+    for (; near->count < found->count; near->count++) {
+        tn_searched_plan *plan = &found->items[near->count];
+        near->plans[near->count] = (tn_near_plan){plan->trays, plan->length};
+        plan->trays = NULL;
+    }
+    return TN_OK;
+}
+
+tn_status tn_explained_search_near(tn_explained *explained, tn_plan_search *search, size_t most, tn_error *error)
+{
+    tn_near *near = &explained->near;
+    tn_searched_plans found = {0};
+    if (explained->kept)
+        return TN_OK;
+    tn_near_clear(near);
+    tn_status status =
+        tn_plan_search_near(search, explained->trays, explained->length, most, &found, &near->cost, &near->more, error);
+    if (status == TN_OK)
+        status = take_near(near, &found, error);
+    tn_searched_plans_clear(&found);
+    if (status != TN_OK)
+        tn_near_clear(near);
+    explained->near_known = status == TN_OK;
+    return status;
+}
+
 void tn_explained_clear(tn_explained *explained)
 {
     for (size_t i = 0; i < explained->count; i++) {

@@ -11,6 +11,7 @@
 #include "runtime/plan/analysis/explain.h"
 #include "runtime/plan/analysis/generated.h"
 #include "runtime/plan/library/near.h"
+#include "runtime/plan/search/search.h"
 #include "runtime/plan/text/text.h"
 
 /* A rule or clause, explained. */
@@ -63,6 +64,9 @@ void tn_explained_preferred(const tn_explained *explained, mpq_t met, mpq_t all)
 
 /* Finds the nearest kept plans of a plan that is dropped, `most` of them. */
 tn_status tn_explained_near(tn_explained *explained, tn_near_finder *finder, size_t most, tn_error *error);
+
+/* The same by search, which is used up: for libraries whose automata pass a limit. */
+tn_status tn_explained_search_near(tn_explained *explained, tn_plan_search *search, size_t most, tn_error *error);
 
 /* As text: short, or with every clause and part. false where out of memory. */
 bool tn_explained_text(const tn_explained *explained, bool full, tn_buffer *out);

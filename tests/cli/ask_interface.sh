@@ -90,6 +90,7 @@ as "{\"plan\": \"$plan\", \"where\": [\"trays = 1\"]}" "$plan" --where 'trays = 
 as "{\"plan\": \"$plan\", \"rules\": [\"step\", \"unhanded\"]}" "$plan" --rule step --rule unhanded
 as "{\"plan\": \"${plan#* | }\", \"nearest\": 7}" "${plan#* | }" --nearest 7
 as "{\"plan\": \"${plan#* | }\"}" "${plan#* | }"
+as "{\"plan\": \"${plan#* | }\", \"max_states\": 3}" "${plan#* | }" --max-states 3
 as '{"plan": "#99999999999999999"}' '#99999999999999999'
 as '{"plan": "#1000", "rules": ["unhanded"]}' '#1000' --rule unhanded
 as '{"plan": "4m one | no"}' '4m one | no'
@@ -114,6 +115,7 @@ as '{"plan": "4m one | no"}' '4m one | no'
 as '{"plan": "[6m end | 4m | 4m | 6m end right]"}' '[6m end | 4m | 4m | 6m end right]'
 as '{"plan": "6m end | ... | end"}' '6m end | ... | end'
 as "{\"plan\": \"$plan\", \"of_all\": true}" "$plan" --of-all
+as "{\"plan\": \"$plan\", \"max_states\": 3}" "$plan" --max-states 3
 asked
 file=tests/cli/files/cabins.plan
 house=$("$TARTAN" unrank "$file" '#10:77')
@@ -196,6 +198,11 @@ as '{"by": [{"measure": "cost"}, {"measure": "area", "most": true}], "trays": {"
 as '{"by": [{"measure": "cost"}], "trays": {"from": 4, "to": 5}}' --least cost --trays 4..5
 as '{"by": [{"measure": "cost"}, {"measure": "are"}]}' --least cost --least are
 asked
+# Past the limit plans are searched.
+file=stdlib/terrace.plan
+as '{"by": [{"measure": "homes", "most": true}, {"measure": "floor-area"}], "trays": {"from": 1, "to": 2}, "max_states": 3}' --most homes --least floor-area --trays 1..2 --max-states 3
+as '{"by": [{"measure": "homes"}, {"measure": "frontage"}], "trays": {"from": 2, "to": 3}, "max_states": 3, "max_conflicts": 1}' --least homes --least frontage --trays 2..3 --max-states 3 --max-conflicts 1
+asked
 file=tests/cli/files/cabins.plan
 as '{"by": [{"measure": "floor-area"}, {"measure": "bedrooms", "most": true}], "plan": "#3"}' --least floor-area --most bedrooms --plan '#3'
 asked
@@ -208,6 +215,8 @@ as '{"pattern": "? | nothing"}' '? | nothing'
 as '{"pattern": "[end | end]"}' '[end | end]'
 as '{"pattern": "? | ...", "where": ["trays = 2"]}' '? | ...' --where 'trays = 2'
 as '{"pattern": "? | ...", "trays": {"from": 1, "to": 2}}' '? | ...' --trays 1..2
+as '{"pattern": "end | ... | end", "max_states": 3}' 'end | ... | end' --max-states 3
+as '{"pattern": "mid | ... | mid", "max_states": 3}' 'mid | ... | mid' --max-states 3
 asked
 file=stdlib/lahave-houses.plan
 as '{"pattern": "? | great | ... | ?", "trays": {"from": 4, "to": 4}, "by": [{"measure": "cost"}]}' '? | great | ... | ?' --trays 4..4 --least cost
@@ -225,6 +234,7 @@ as "{\"before\": \"$files/sheds.plan\", \"library\": \"sheds\"}" --library sheds
 as "{\"before\": \"$files/sheds.plan\", \"library\": \"sheds\", \"sample\": 1, \"seed\": 4, \"no_measures\": true}" --library sheds --sample 1 --seed 4 --no-measures
 as "{\"before\": \"$files/sheds.plan\", \"library\": \"sheds\", \"where\": [\"trays = 2\"]}" --library sheds --where 'trays = 2'
 as "{\"before\": \"$files/sheds.plan\", \"library\": \"shed\"}" --library shed
+as "{\"before\": \"$files/sheds.plan\", \"library\": \"sheds\", \"max_states\": 1, \"sample\": 5}" --library sheds --max-states 1 --sample 5
 asked
 command=(diff "$files/rows.plan")
 as "{\"before\": \"$files/rows.plan\", \"library\": \"sheds\"}" --library sheds

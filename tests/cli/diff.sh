@@ -18,7 +18,6 @@ golden measures_json "tartan diff measures.plan $scratch/shorter.plan -l strips 
 sed 's/cafe) 7/cafe) 9/; /weight busy/d; s/prune tray(hall, 3m)/weight tray(hall) 2/' "$files/market.plan" >"$scratch/market.plan"
 golden weights "tartan diff market.plan $scratch/market.plan -l lively --sample 0"
 golden weights_json "tartan diff market.plan $scratch/market.plan -l lively --sample 0 --json | sed -n '/\"weights\"/,/^  ]/p'"
-golden limit 'tartan diff sheds.plan sheds-edited.plan -l sheds --max-states 3'
 sed 's/6m/7m/g' "$files/sheds.plan" >"$scratch/wider.plan"
 golden other_value "tartan diff sheds.plan $scratch/wider.plan -l sheds"
 sed '/^test/,$d; 0,/^}/s//  forbid tray(3m, door)\n}/' "$files/sheds.plan" >"$scratch/fewer.plan"

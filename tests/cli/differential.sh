@@ -31,6 +31,7 @@ while read -r kind seeds; do
     agrees "$kind" "$search/search.py" "$kind" --seeds "$seeds" --jobs 2
 done <<'SHARES'
 plans 12
+searched 60
 houses 12
 fields 6
 solids 6

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Needs the parts: draw
+# Needs the parts: draw search
 # explain: which clauses drop a plan, by which trays, and what is nearest; rules by themselves; JSON and pictures.
 name=explain
 . "$(dirname "$0")/golden.bash"

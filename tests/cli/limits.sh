@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# Needs the parts: search
 # Rule sets that blow up: every command ends with what passed which limit, where, and what raises it; nothing that was
 # not analysed passes for fine.
 name=limits

@@ -83,6 +83,56 @@ is 'still a plan' "$(grep -c '|' found)" 1
 "$TARTAN" draw seven.plan --sample 3 --max-states 20 -o drawn.svg 2>said || fail "not drawn: $(<said)"
 grep -q '3 plans found by search' drawn.svg || fail 'the sheet does not say how its plans were found'
 
+# What plans are nearest, what completes an open plan, trade-offs and edits: as the automaton answers. Random files are asked the same (tests/differential/searched.py).
+measured seven.plan | sed 's/^library/measure early using s = occurrences(neighbour(beginning, tray(n1 or n2 or n3)))\n&/' >measured.plan
+first=$("$TARTAN" enumerate seven.plan --limit 1)
+near() { "$TARTAN" explain seven.plan "n7 | $first" "$@" 2>said || is 'the plan is dropped' $? 1; }
+near >expected
+near --max-states 2 | cmp - expected || fail 'other plans are nearest'
+near --max-states 2 >found
+grep -q 'nearest plans are found by search, since .* passes the limit of 2 states' said || fail "search for near plans is not told: $(<said)"
+near --max-states 2 --max-conflicts 1 >found
+grep -q 'so nearest plans are not known' said || fail "nothing is said of near plans that are not found: $(<said)"
+
+points() { "$TARTAN" pareto measured.plan --most pairs --least early "$@" 2>said | awk '{ print $1, $2 }'; }
+points >expected
+points --max-states 20 | cmp - expected || fail 'another front by search'
+"$TARTAN" pareto measured.plan --most pairs --least early --max-states 20 --json 2>said | grep -q '"proven": true' || fail "the front is not proven: $(<said)"
+"$TARTAN" pareto measured.plan --most pairs --least early --max-states 20 -o front.svg 2>said && fail 'a front without counts is drawn'
+grep -q 'is not drawn' said || fail "nothing is said of the picture: $(<said)"
+
+complete() { "$TARTAN" complete seven.plan "$@" --max-states 20 2>said; }
+"$TARTAN" enumerate seven.plan --where 'plan [... | n7]' >expected
+complete '... | n7' | tail -n +2 | cmp - <(head -10 expected) || fail 'other completions'
+is 'no completion' "$(complete 'n7 | ? | n7 | ...')" "no plan completes it
+plans fit what is written before tray 3, and none of them goes on with it
+\`n7\` of tray 3 alone leaves none: its number is something else"
+is 'too long' "$(complete 'n7 | ?')" 'no plan completes it
+plans begin so, and all have more trays: `| ...` at the end lets them'
+complete '? | ...' --most pairs >found && fail 'completions are weighed'
+
+sed 's/^}$/  prune neighbour(beginning, tray(n7))\n}/' seven.plan >edited.plan
+"$TARTAN" enumerate seven.plan --where 'neighbour(beginning, tray(n7))' >expected
+"$TARTAN" diff seven.plan edited.plan --max-states 20 --sample 9 2>said | sed -n '/removed/,/^$/{/|/p}' | cmp - <(head -10 expected) || fail 'other plans are removed'
+"$TARTAN" diff seven.plan edited.plan --max-states 20 2>said | grep -q '^added: none$' || fail 'plans are added'
+is 'no difference' "$("$TARTAN" diff nine.plan nine.plan --max-states 20 2>said)" 'langford of nine.plan, nine.plan: the same plans
+
+removed: none
+
+added: none'
+"$TARTAN" diff twelve.plan nine.plan --max-states 20 >found 2>said && fail 'libraries of other trays are compared'
+grep -q 'E0508' said || fail "other trays: $(<said)"
+
+refused() {
+    local code=0
+    "$TARTAN" "$@" --max-states 20 >found 2>said || code=$?
+    is "$1 ends" $code 4
+    grep -q 'note: .*`enumerate`' said || fail "$1 does not say what to ask instead: $(<said)"
+}
+refused count seven.plan
+refused rank seven.plan "$first"
+refused unrank seven.plan 3
+
 # As a question, and in files.
 enumerate seven.plan --max-states 20 -o plans.sqlite --limit 10
 enumerate seven.plan --max-states 20 -o plans.sqlite --resume

@@ -5,6 +5,7 @@ from by_house_reference import houses_by_reference
 from by_reference import circles_by_reference, plans_by_reference
 from kind import Kind
 from plan_questions import OF_FILES, OF_LIBRARIES, QUICK, PlanSubject
+from searched import OF_SEARCHED
 from source import read_source
 
 
@@ -37,5 +38,13 @@ class PlanKind(Kind):
         return always, [(q, None) for q in OF_FILES] + [(q, name) for name in libraries for q in OF_LIBRARIES]
 
 
+class SearchedKind(PlanKind):
+    """Of the same files as plans: only what is answered by search where an automaton passes a limit."""
+
+    def questions(self, path):
+        return [(q, item.name) for item in read_source(path).of("library") for q in OF_SEARCHED], []
+
+
 PLANS = PlanKind("plans", plans.make_file)
+SEARCHED = SearchedKind("searched", plans.make_file)
 HOUSES = PlanKind("houses", houses.make_file)

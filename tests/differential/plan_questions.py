@@ -12,12 +12,12 @@ from c_interface import c_interface
 from exports import prolog, regex
 from house_files import bills, solids, swings
 from program import Refused, answer, json_lines, read_json, run, same
+from searched import OF_SEARCHED
 from settings import set_as_written
 from source import Source
 from subject import Subject
 
 LISTED = 3000            # no more plans or houses than this are listed
-SEARCHED = 50            # plans are found by search
 
 
 class PlanSubject(Subject):
@@ -54,6 +54,14 @@ class PlanSubject(Subject):
         if self._lines is None and self.total <= LISTED:
             self._lines = self.ask("enumerate").split("\n")[:-1]
         return self._lines
+
+    def without_last(self):
+        """The file without the library's last clause, and the plans that it then has; None if it has no such clause, or too many plans."""
+        lines = None if self.houses or self.lines is None else clause_lines(self)
+        if not lines:
+            return None
+        file = without_line(self, [lines[-1][1]])
+        return (file, self.ask("enumerate", file=file).split("\n")[:-1]) if count_kept(self, file) <= LISTED else None
 
     def where(self, question, file=None):
         return how_many(self.json("count", "--where", question, *([] if self.houses else ["--no-effects"]), file=file))
@@ -399,14 +407,10 @@ def count_kept(subject, file):
 
 def compared(subject):
     """`diff` of the library with and without its last clause, by the lists of both."""
-    lines = None if subject.houses or subject.lines is None else clause_lines(subject)
-    if not lines:
+    other = subject.without_last()
+    if not other:
         return
-    file = without_line(subject, [lines[-1][1]])
-    if count_kept(subject, file) > LISTED:
-        return
-    new = set(subject.ask("enumerate", file=file).split("\n")[:-1])
-    old = set(subject.lines)
+    file, old, new = other[0], set(subject.lines), set(other[1])
     found = read_json("diff", answer("diff", subject.path, file, "--json", "--no-measures", *subject.options))["total"]
     same("diff", [int(found[k]) for k in ("removed", "added", "kept")], [len(old - new), len(new - old), len(old & new)])
 
@@ -462,35 +466,7 @@ def limits(subject):
         same(f"{limit[0]} leaves whole lines", written[-1:] in ("", "\n"), True)
 
 
-def searched(subject):
-    """Where the automaton passes a limit, plans are found by search: the same ones, in the same order; none, where there is none."""
-    if subject.houses or subject.lines is None:
-        return
-    first = [line for i, line in enumerate(subject.lines) if i < SEARCHED]
-    same("enumerate by search", subject.ask("enumerate", "--max-states", "1", "--limit", str(SEARCHED)).split("\n")[:-1], first)
-    drawn = subject.ask("sample", "20", "--uniform", "--max-states", "1").split("\n")[:-1]
-    same("sample by search, in the library", set(drawn) <= set(subject.lines), True)
-    same("sample by search, each once", len(set(drawn)), min(20, subject.total))
-    for measure in subject.measures()[:2]:
-        for better in ("--most", "--least"):
-            best_searched(subject, measure, better)
-
-
-def best_searched(subject, measure, better):
-    """The best plans have the same values, in whatever order those of one value come."""
-    values = []
-    for limit in ([], ["--max-states", "1"]):
-        try:
-            lines = subject.ask("best", "3", better, measure, "--format", "json", *limit).split("\n")[:-1]
-        except Refused as refused:
-            if refused.limit:                                    # quotients and gaps are not searched
-                return
-            raise
-        values.append([read_json("best", line)["value"] for line in lines])
-    same(f"best {better} by search", values[1], values[0])
-
-
 QUICK = [counted_ways, by_length]              # asked of every library; of those that follow some are chosen
 OF_FILES = [loads, file_questions.keeps_its_meaning, says_json]
 OF_LIBRARIES = [by_measures, written_by_name, questions_and_denials, ranks, samples, all_explained, explained_where, both_engines, fronts, mirrored,
-                effects, compared, threads, saved, limits, searched, prolog, regex, c_interface, c_ask, solids, swings, bills, tested, set_as_written]
+                effects, compared, threads, saved, limits, *OF_SEARCHED, prolog, regex, c_interface, c_ask, solids, swings, bills, tested, set_as_written]

@@ -203,7 +203,8 @@ typedef struct tn_checked_rule {
     bool generates;             /* a `generate` names it, also by way of others */
     bool hidden;                /* made of a call, or of a rule of an older schema: the file does not name it */
     bool listed;                /* of a hidden measure: it has a record all the same */
-    bool about_plan;            /* has a comparison that speaks of the whole plan */
+    bool about_plan;            /* has a comparison that speaks of the whole plan, */
+    bool looked;                /* which is being looked for in it */
     bool failed;                /* of a template: a call of it was wrong inside; of a `let`: it uses itself */
     const tn_ast_expr *call;    /* what a hidden rule was made for first, or NULL */
     struct tn_checked_rule *of; /* the template, or rule of an older schema, that a hidden rule was made of */

@@ -490,14 +490,25 @@ uint32_t tn_min_trays(const tn_ast_expr *expr)
 /* ---- numbers that stand only in some places: what speaks of the whole plan (comparisons with `matches`, or of numbers
  * of houses) where the plan is meant, and what lies before or behind a stretch where a `where` says of which */
 
+static const tn_ast_expr *comparison_in(const tn_ast_expr *expr);
+
+/* Rules may be in a circle: each is looked through once on the way. */
+static const tn_ast_expr *comparison_of(tn_checked_rule *rule)
+{
+    if (!rule || !rule->about_plan || rule->looked)
+        return NULL;
+    rule->looked = true;
+    const tn_ast_expr *found = comparison_in(rule->ast->body);
+    rule->looked = false;
+    return found;
+}
+
 static const tn_ast_expr *comparison_in(const tn_ast_expr *expr)
 {
     if (expr->whole)
         return expr;
     if (expr->kind == TN_EXPR_NAME)
-        return expr->rule && expr->rule->about_plan && expr->rule->ast->body != expr
-                   ? comparison_in(expr->rule->ast->body)
-                   : NULL;
+        return comparison_of(expr->rule);
     for (TN_EACH(const tn_ast_expr, part, expr->parts)) {
         const tn_ast_expr *found = comparison_in(part);
         if (found)

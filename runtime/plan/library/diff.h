@@ -49,4 +49,8 @@ const tn_changed_clause *tn_library_diff_clause(const tn_library_diff *diff, siz
  * (E0508) where they do not have the same trays. */
 tn_status tn_tray_map(const tn_schema *from, const tn_schema *to, tn_tray **map, tn_error *error);
 
+/* Which field of `to` each field of `from` is ([from->field_count]), and which of that field's values each value is
+ * ([from->value_count]): both have room. As above. */
+tn_status tn_field_map(const tn_schema *from, const tn_schema *to, uint32_t *fields, uint8_t *values, tn_error *error);
+
 #endif

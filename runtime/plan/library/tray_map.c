@@ -52,8 +52,7 @@ static tn_status map_values(const tn_schema *from, uint32_t field, const tn_sche
     return TN_OK;
 }
 
-static tn_status map_fields(const tn_schema *from, const tn_schema *to, uint32_t *fields, uint8_t *values,
-                            tn_error *error)
+tn_status tn_field_map(const tn_schema *from, const tn_schema *to, uint32_t *fields, uint8_t *values, tn_error *error)
 {
     for (uint32_t f = 0; f < from->field_count; f++) {
         char what[300];
@@ -102,7 +101,7 @@ static tn_status map_one_way(const tn_schema *from, const tn_schema *to, tn_tray
 {
     uint32_t *fields = calloc((size_t)from->field_count + 1, sizeof *fields);
     uint8_t *values = calloc((size_t)from->value_count + 1, 1);
-    tn_status status = fields && values ? map_fields(from, to, fields, values, error) : tn_fail_memory(error);
+    tn_status status = fields && values ? tn_field_map(from, to, fields, values, error) : tn_fail_memory(error);
     if (status == TN_OK && from->field_count == to->field_count)
         status = map_trays(from, to, fields, values, map, error);
     free(fields);

@@ -74,19 +74,12 @@ typedef struct drawing {
 static tn_status draw_one(drawing *d, bool *found, tn_error *error)
 {
     tn_plan_search *search = d->search;
-    bool kept = false;
-    tn_status status = TN_OK;
     prefer_values(search, d->seed, d->plans->count);
-    for (*found = true; status == TN_OK && *found && !kept;) {
-        status = tn_search_solve(search, 0, found, error);
-        if (status != TN_OK || !*found)
-            break;
-        tn_letters_read(&search->at.letters, search->plan);
-        status = tn_search_judge(search, search->plan, &kept, error);
-        if (status == TN_OK)
-            tn_search_exclude(search, search->plan);
-    }
-    return status == TN_OK && *found ? tn_searched_add(d->plans, search->plan, search->at.trays, error) : status;
+    tn_status status = tn_search_find(search, 0, found, NULL, error);
+    if (status != TN_OK || !*found)
+        return status;
+    tn_search_exclude(search, search->plan);
+    return tn_searched_add(d->plans, search->plan, search->at.trays, error);
 }
 
 /* Up to `share` more plans of a length; *found: how many. */

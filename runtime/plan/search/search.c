@@ -22,12 +22,16 @@ static uint32_t digits_of(const tn_plan_search *search)
 void tn_search_close(tn_plan_search *search)
 {
     tn_search_length *at = &search->at;
+    if (search->without)
+        tn_search_close(search->without->search);
     tn_unrolled_free(at->unrolled);
     tn_letters_clear(&at->letters);
-    tn_circuit_free(at->circuit);
+    if (!at->borrowed)
+        tn_circuit_free(at->circuit);
     free(at->keeps);
     free(at->judged);
     free(at->assumed);
+    free(at->differs);
     *at = (tn_search_length){0};
 }
 
@@ -57,27 +61,69 @@ static tn_status unroll_clauses(tn_plan_search *search, tn_error *error)
     return status;
 }
 
-tn_status tn_search_open(tn_plan_search *search, uint32_t trays, bool keep, tn_error *error)
+static tn_status assert_narrow(tn_plan_search *search, tn_error *error)
+{
+    tn_circuit *circuit = search->at.circuit;
+    tn_signal gate = TN_SIGNAL_TRUE;
+    tn_status status = TN_OK;
+    if (search->within) {
+        tn_signal *begins = malloc((search->within->count + 1) * sizeof *begins);
+        status = begins ? tn_search_within(search, search->within, begins, &gate, error) : tn_fail_memory(error);
+        tn_circuit_assert(circuit, gate);
+        free(begins);
+    }
+    if (status == TN_OK && search->around) {
+        status = tn_search_around_gate(search, search->around, &gate, error);
+        tn_circuit_assert(circuit, gate);
+    }
+    if (status == TN_OK && search->without) {
+        status = tn_search_without(search, search->without, &gate, error);
+        tn_circuit_assert(circuit, gate);
+    }
+    return status;
+}
+
+/* On a circuit of its own, or (`circuit` given) another's. */
+static tn_status open_on(tn_plan_search *search, tn_circuit *circuit, uint32_t trays, tn_error *error)
 {
     tn_search_length *at = &search->at;
     uint32_t clauses = search->record->clause_count;
+    uint64_t digits = (uint64_t)trays * search->schema->field_count;
     tn_search_close(search);
     at->trays = trays;
     at->open = true;
+    at->circuit = circuit;
+    at->borrowed = circuit != NULL;
     at->keeps = calloc((size_t)clauses + 1, sizeof *at->keeps);
     at->judged = calloc((size_t)clauses + 1, sizeof *at->judged);
-    at->assumed = tn_array_new((uint64_t)trays * search->schema->field_count + clauses + 2, sizeof *at->assumed);
-    tn_status status = at->keeps && at->judged && at->assumed
-                           ? tn_circuit_new(search->options.max_gates, &at->circuit, error)
-                           : tn_fail_memory(error);
+    at->assumed = tn_array_new(digits + clauses + TN_SEARCH_FIXED_MAX + 2, sizeof *at->assumed);
+    at->differs = tn_array_new(digits + 1, sizeof *at->differs);
+    tn_status status = at->keeps && at->judged && at->assumed && at->differs ? TN_OK : tn_fail_memory(error);
+    if (status == TN_OK && !circuit)
+        status = tn_circuit_new(search->options.max_gates, &at->circuit, error);
     if (status == TN_OK)
         status = tn_letters_make(&at->letters, at->circuit, search->schema, trays, error);
     if (status == TN_OK)
         status = tn_unrolled_new(&at->letters, &at->unrolled, error);
-    if (status == TN_OK)
-        status = unroll_clauses(search, error);
-    for (uint32_t i = 0; status == TN_OK && keep && i < clauses; i++)
+    return status == TN_OK ? unroll_clauses(search, error) : status;
+}
+
+tn_status tn_search_open_on(tn_plan_search *search, tn_circuit *circuit, uint32_t trays, tn_error *error)
+{
+    tn_status status = open_on(search, circuit, trays, error);
+    if (status != TN_OK)
+        tn_search_close(search);
+    return status;
+}
+
+tn_status tn_search_open(tn_plan_search *search, uint32_t trays, bool keep, tn_error *error)
+{
+    const tn_search_length *at = &search->at;
+    tn_status status = open_on(search, NULL, trays, error);
+    for (uint32_t i = 0; status == TN_OK && keep && i < search->record->clause_count; i++)
         tn_circuit_assert(at->circuit, at->keeps[i]);
+    if (status == TN_OK && keep)
+        status = assert_narrow(search, error);
     if (status != TN_OK)
         tn_search_close(search);
     return status;
@@ -128,7 +174,7 @@ static tn_signal up_to_value(const tn_plan_search *search, uint32_t digit, uint3
 
 void tn_search_exclude(tn_plan_search *search, const tn_tray *trays)
 {
-    tn_signal *differs = search->at.assumed;
+    tn_signal *differs = search->at.differs;
     for (uint32_t d = 0; d < digits_of(search); d++)
         differs[d] = tn_signal_not(is_value(search, d, value_of(search, trays, d)));
     tn_circuit_assert_any(search->at.circuit, differs, digits_of(search));
@@ -136,7 +182,7 @@ void tn_search_exclude(tn_plan_search *search, const tn_tray *trays)
 
 static void assume_value(tn_plan_search *search, uint32_t digit)
 {
-    search->at.assumed[digit] = is_value(search, digit, value_of(search, search->plan, digit));
+    search->at.assumed[search->at.fixed + digit] = is_value(search, digit, value_of(search, search->plan, digit));
 }
 
 /* The values before `digit` are those of the plan: makes the others the least there may be. */
@@ -147,8 +193,8 @@ static tn_status lower_values(tn_plan_search *search, uint32_t digit, tn_error *
         uint32_t value;
         bool lower = true;
         while (status == TN_OK && lower && (value = value_of(search, search->plan, digit)) > 0) {
-            search->at.assumed[digit] = up_to_value(search, digit, value - 1);
-            status = tn_search_solve(search, (size_t)digit + 1, &lower, error);
+            search->at.assumed[search->at.fixed + digit] = up_to_value(search, digit, value - 1);
+            status = tn_search_solve(search, search->at.fixed + digit + 1, &lower, error);
             if (lower)
                 tn_letters_read(&search->at.letters, search->plan);
         }
@@ -161,7 +207,7 @@ static tn_status lower_values(tn_plan_search *search, uint32_t digit, tn_error *
  * none. */
 static uint32_t last_failed(const tn_plan_search *search, uint32_t digits)
 {
-    while (digits > 0 && !tn_circuit_failed(search->at.circuit, search->at.assumed[digits - 1]))
+    while (digits > 0 && !tn_circuit_failed(search->at.circuit, search->at.assumed[search->at.fixed + digits - 1]))
         digits--;
     return digits;
 }
@@ -174,7 +220,7 @@ static tn_status find_after(tn_plan_search *search, bool *found, tn_error *error
     for (uint32_t d = 0; d < begin; d++)
         assume_value(search, d);
     for (;;) {
-        tn_status status = tn_search_solve(search, begin, found, error);
+        tn_status status = tn_search_solve(search, search->at.fixed + begin, found, error);
         if (status != TN_OK)
             return status;
         if (*found)
@@ -190,7 +236,7 @@ static tn_status find_after(tn_plan_search *search, bool *found, tn_error *error
 
 static tn_status find_first(tn_plan_search *search, bool *found, tn_error *error)
 {
-    tn_status status = tn_search_solve(search, 0, found, error);
+    tn_status status = tn_search_solve(search, search->at.fixed, found, error);
     if (status != TN_OK || !*found)
         return status;
     tn_letters_read(&search->at.letters, search->plan);
@@ -236,7 +282,35 @@ tn_status tn_search_judge(tn_plan_search *search, const tn_tray *trays, bool *ke
             return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a plan was found that the clause `%.80s` does not keep",
                            tn_text(search->schema->module, tn_search_clause(search, i)->name));
     }
+    if (status == TN_OK && *keeps && search->without) {
+        status = tn_search_other_keeps(search, search->without, keeps, error);
+        *keeps = !*keeps;
+    }
     return status == TN_OK ? count_rejected(search, *keeps, error) : status;
+}
+
+tn_status tn_search_find(tn_plan_search *search, size_t count, bool *found, bool *undecided, tn_error *error)
+{
+    tn_error limit;
+    tn_status status = TN_OK;
+    bool kept = false;
+    for (*found = true; status == TN_OK && *found && !kept;) {
+        status = tn_search_solve(search, count, found, &limit);
+        if (status != TN_OK || !*found)
+            break;
+        tn_letters_read(&search->at.letters, search->plan);
+        status = tn_search_judge(search, search->plan, &kept, &limit);
+        if (status == TN_OK && !kept)
+            tn_search_exclude(search, search->plan);
+    }
+    *found = status == TN_OK && *found;
+    if (undecided)
+        *undecided = status == TN_LIMIT && limit.code == E_SEARCH_UNDECIDED;
+    if (undecided && *undecided)
+        return TN_OK;
+    if (status != TN_OK && error)
+        *error = limit;
+    return status;
 }
 
 tn_status tn_plan_search_keeps(tn_plan_search *search, const tn_tray *trays, uint32_t length, bool *keeps,
@@ -250,6 +324,16 @@ tn_status tn_plan_search_keeps(tn_plan_search *search, const tn_tray *trays, uin
 }
 
 /* ---- asked */
+
+void tn_plan_search_narrow(tn_plan_search *search, const tn_open_plan *open)
+{
+    search->within = open;
+}
+
+void tn_plan_search_leave_out(tn_plan_search *search, const tn_search_other *other)
+{
+    search->without = other;
+}
 
 void tn_plan_search_lengths(const tn_plan_search *search, uint32_t *least, uint32_t *most)
 {
@@ -296,8 +380,7 @@ void tn_plan_search_free(tn_plan_search *search)
     free(search);
 }
 
-/* The next plan of the length that is open; *found: there is one. */
-static tn_status next_of_length(tn_plan_search *search, bool *found, tn_error *error)
+tn_status tn_search_next_of_length(tn_plan_search *search, bool *found, tn_error *error)
 {
     tn_status status = TN_OK;
     bool kept = false;
@@ -322,7 +405,7 @@ tn_status tn_plan_search_next(tn_plan_search *search, const tn_tray **trays, uin
         if (!search->at.open)
             status = tn_search_open(search, search->next_trays++, true, error);
         if (status == TN_OK)
-            status = next_of_length(search, &found, error);
+            status = tn_search_next_of_length(search, &found, error);
         if (status == TN_OK && !found)
             tn_search_close(search);
     }

@@ -16,7 +16,7 @@
 
 #include <gmp.h>
 
-#include "runtime/plan/schema/schema.h"
+#include "runtime/plan/measure/open_plan.h"
 
 typedef struct tn_plan_search tn_plan_search;
 
@@ -91,6 +91,56 @@ typedef struct tn_search_conflict {
  */
 tn_status tn_plan_search_conflict(tn_plan_search *search, tn_search_conflict *conflict, tn_error *error);
 void tn_search_conflict_clear(tn_search_conflict *conflict);
+
+/* ---- narrower: before the first plan, and what is borrowed has to stay */
+
+/* Only plans that complete an open plan, whose trays are given. */
+void tn_plan_search_narrow(tn_plan_search *search, const tn_open_plan *open);
+
+/* Another library, and what fields, values and trays of the search's schema are in its own
+ * (runtime/plan/library/diff.h).
+ */
+typedef struct tn_search_other {
+    tn_plan_search *search;
+    const uint32_t *fields;
+    const uint8_t *values; /* of a field's value, in the schema's order: which of the other field's */
+    const tn_tray *trays;
+} tn_search_other;
+
+/* Only plans that the other library does not keep. */
+void tn_plan_search_leave_out(tn_plan_search *search, const tn_search_other *other);
+
+/* ---- other questions */
+
+/* With how many parts of an open plan, from its first on, a plan of the library can begin, whatever follows. *any:
+ * there is a plan at all. The search is used up. */
+tn_status tn_plan_search_beginning(tn_plan_search *search, const tn_open_plan *open, bool *any, size_t *parts,
+                                   tn_error *error);
+
+/* Adds the first `most` plans, in the order of their ranks, of those nearest to a plan (runtime/plan/library/near.h
+ * says how distances are); none: the library has none. *more: others are as near. plans: empty. The search is used up.
+ */
+tn_status tn_plan_search_near(tn_plan_search *search, const tn_tray *trays, size_t length, size_t most,
+                              tn_searched_plans *plans, uint32_t *distance, bool *more, tn_error *error);
+
+/* The best trade-offs of some measures, as far as they were found. */
+typedef struct tn_searched_point {
+    tn_tray *trays; /* the first plan that has these values */
+    uint32_t length;
+    mpq_t values[TN_WEIGHED_MAX]; /* in the measures' units of nanometres to their powers */
+} tn_searched_point;
+
+typedef struct tn_searched_front {
+    tn_searched_point *points; /* best first by the measures in their order */
+    size_t count, capacity;
+    bool proven; /* no plan betters one of them, and none is missing */
+} tn_searched_front;
+
+/* sums: SUM records, up to TN_WEIGHED_MAX, none about gaps; most: more of it is better, else less. front: empty; clear
+ * it in any case. The search is used up. */
+tn_status tn_plan_search_front(tn_plan_search *search, const uint32_t *sums, const bool *most, uint32_t count,
+                               tn_searched_front *front, tn_error *error);
+void tn_searched_front_clear(tn_searched_front *front);
 
 /* Do all clauses that apply keep the plan? By the interpreter. */
 tn_status tn_plan_search_keeps(tn_plan_search *search, const tn_tray *trays, uint32_t length, bool *keeps,

@@ -109,12 +109,86 @@ static tn_status conflict(void)
     return status;
 }
 
+/* Of five narrow trays, the nearest plans have two wide ones, and are all of the library's; of these the hall is narrow
+ * or wide. */
+static tn_status near_and_front(void)
+{
+    const tn_tray middle[5] = {1, 1, 0, 1, 1}; /* of five narrow trays */
+    const bool most[2] = {true, false};
+    const uint32_t sums[2] = {module->MEASURE_records[0].sum, module->MEASURE_records[0].sum};
+    tn_searched_plans plans = {0};
+    tn_searched_front front = {0};
+    tn_plan_search *search;
+    tn_error error;
+    uint32_t distance = 0;
+    bool more = true;
+    tn_status status = tn_plan_search_new(schema, 0, NULL, &search, &error);
+    if (status != TN_OK)
+        return status;
+    status = tn_plan_search_near(search, middle, 5, 9, &plans, &distance, &more, &error);
+    if (status == TN_OK) {
+        assert_int_equal(plans.count, 3);
+        assert_int_equal(distance, 2);
+        assert_false(more);
+    }
+    tn_searched_plans_clear(&plans);
+    tn_plan_search_free(search);
+    if (status == TN_OK)
+        status = tn_plan_search_new(schema, 0, NULL, &search, &error);
+    if (status != TN_OK)
+        return status;
+    status = tn_plan_search_front(search, sums, most, 2, &front, &error);
+    if (status == TN_OK) {
+        assert_true(front.proven);
+        assert_int_equal(front.count, 2); /* as many halls that are narrow as can be, and as few */
+    }
+    tn_searched_front_clear(&front);
+    tn_plan_search_free(search);
+    return status;
+}
+
+/* Plans begin with two rooms, and none with more than what may follow; the library has none that it has not itself. */
+static tn_status open_and_without(void)
+{
+    bool rooms[6] = {false, true, false, false, true, false}, none[6] = {false};
+    const tn_open_tray parts[4] = {{.fits = rooms}, {.fits = rooms}, {.gap = true}, {.fits = none}};
+    const tn_open_plan open = {.trays = parts, .count = 3}, wrong = {.trays = parts, .count = 4};
+    const uint32_t fields[2] = {0, 1};
+    const uint8_t values[5] = {0, 1, 0, 1, 2};
+    const tn_tray same[6] = {0, 1, 2, 3, 4, 5};
+    const tn_tray *trays;
+    tn_plan_search *search, *other = NULL;
+    tn_error error;
+    uint32_t length;
+    size_t begins = 0;
+    bool any = false;
+    tn_status status = tn_plan_search_new(schema, 0, NULL, &search, &error);
+    if (status != TN_OK)
+        return status;
+    status = tn_plan_search_beginning(search, &wrong, &any, &begins, &error);
+    assert_true(status != TN_OK || (any && begins == 3));
+    if (status == TN_OK)
+        status = tn_plan_search_new(schema, 0, NULL, &other, &error);
+    const tn_search_other left_out = {other, fields, values, same};
+    tn_plan_search_narrow(search, &open);
+    if (status == TN_OK) {
+        tn_plan_search_leave_out(search, &left_out);
+        status = tn_plan_search_next(search, &trays, &length, &error);
+        assert_true(status != TN_OK || !trays);
+    }
+    tn_plan_search_free(search);
+    tn_plan_search_free(other);
+    return status;
+}
+
 static void test_memory(void **state)
 {
     (void)state;
     fail_each(all_plans, false);
     fail_each(drawn_and_best, false);
     fail_each(conflict, false);
+    fail_each(near_and_front, false);
+    fail_each(open_and_without, false);
 }
 
 /* Brute force: all plans of five trays, judged by the interpreter. */
