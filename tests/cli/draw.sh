@@ -108,7 +108,7 @@ golden rule_too_large "tartan draw $scratch/deep.plan --rule deep -o $scratch/x.
 # and names.
 alike=$files/alike.plan
 "$TARTAN" draw "$alike" --sample 12 -o "$scratch/alike.svg"
-for rule in twin each-use growing nested wet alike-pair no-baths; do
+for rule in twin each-use growing nested wet alike-pair steamy by-any no-baths; do
     "$TARTAN" draw "$alike" --rule "$rule" -o "$scratch/rule-$rule.svg"
 done
 python3 - "$scratch" <<'PYTHON' || fail 'rules are not drawn as they should be'
@@ -139,7 +139,10 @@ assert words("rule-twin")[2:] == ["some v in use", "v", "v, garden terrace"], wo
 assert words("rule-each-use")[1:] == ["every u in use", "u"], words("rule-each-use")
 assert words("rule-growing")[1:] == ["some v, w in width: v < w", "v", "w"], words("rule-growing")
 assert [w for w in words("rule-nested") if w.startswith("some")] == ["some v in use", "some w in width"], words("rule-nested")
-assert words("rule-alike-pair")[1:] == ["some v in use", "beside(tray(v), tray(v))"], words("rule-alike-pair")
+assert words("rule-alike-pair")[1:] == ["some v in use", "beside(tray(v), tray(v))", "v", "v"], words("rule-alike-pair")
+assert words("rule-by-any")[1:] == ["some v in use", "near-any(tray(v))", "beside(tray(living), tray(v))", "living", "v"], words("rule-by-any")
+assert words("rule-steamy")[1:] == ["and", "around(bath)", "or", "pair(bath, kitchen)", "or", "bath", "kitchen", "bath", "kitchen",
+                                    "beside(tray(bath), tray(living))", "bath", "living", "several(2, bath)", "n > 2", "bath"], words("rule-steamy")
 wet = words("rule-wet")
 assert "pair(kitchen, bath)" in wet and "pair(bath, bedroom)" in wet, wet
 assert collections.Counter(w for w in wet if w in NAMES) == {"kitchen": 2, "bath": 4, "bedroom": 2}, wet

@@ -185,11 +185,20 @@ static tn_rule_box_kind kind_of(tn_part_kind kind)
     }
 }
 
+/* A call of a rule with parameters that is opened. */
+typedef struct call {
+    const char *parameters; /* in the rule's head, "a, b) = ..."; NULL: not known */
+    const char *text;       /* "pair(kitchen, bath)" */
+    const tn_source_map_record *body;
+    const struct call *outer;
+} call;
+
 /* A rule being read, and what its parts stand in. */
 typedef struct adding {
     const tn_module *module;
     tn_rule_boxes *boxes;
     const struct bound *bound; /* the innermost quantifier */
+    const call *call;          /* the innermost call */
     unsigned calls, depth;     /* of rules with parameters, opened around these parts; and of parts in parts */
     tn_error *error;
 } adding;
@@ -338,29 +347,116 @@ static tn_status add_quantifier(const adding *a, const tn_parts *parts, uint32_t
 
 enum { CALLS_MAX = 6, DEPTH_MAX = 100, BOXES_MAX = 2000 }; /* calls in calls and parts in parts, within so many boxes */
 
-static bool is_opened(const adding *a, const tn_part *part, const char *text)
+static bool is_opened(const adding *a, const tn_part *part)
 {
     return part->kind == TN_PART_RULE && part->rule == UINT32_MAX && !part->again && a->calls < CALLS_MAX &&
-           a->depth < DEPTH_MAX && a->boxes->count < BOXES_MAX && !is_bound(a->bound, text);
+           a->depth < DEPTH_MAX && a->boxes->count < BOXES_MAX;
+}
+
+/* Where the parameters stand in the head of the rule that is called, `rule pair(a, b)`: behind its name, before the
+ * body that was compiled. NULL: the source has none, or its names are others. */
+static const char *find_parameters(const tn_parts *called, const char *text)
+{
+    const tn_module *module = called->module;
+    const tn_source_map_record *body = tn_module_place(module, called->parts[0].root);
+    const char *source = body && body->file < module->SOURCE_count
+                             ? tn_text(module, module->SOURCE_records[body->file].text)
+                             : NULL,
+               *found = NULL;
+    size_t size = strcspn(text, "(");
+    for (const char *at = source; at && (at = strstr(at, "rule ")) && at < source + body->begin; at++) {
+        const char *name = at + 5 + strspn(at + 5, " ");
+        if ((at == source || !is_name(at[-1])) && strncmp(name, text, size) == 0 && name[size] == '(')
+            found = name + size + 1;
+    }
+    return found;
+}
+
+/* The end of an argument of a call: its comma, or the parenthesis behind the last one. */
+static const char *end_of_argument(const char *at)
+{
+    int depth = 0;
+    for (; *at && (depth > 0 || (*at != ',' && *at != ')')); at++)
+        depth += (*at == '(') - (*at == ')');
+    return at;
+}
+
+/* The parameter of a call whose name is the word; SIZE_MAX: none is. */
+static size_t parameter_of(const call *c, const char *word, size_t size)
+{
+    size_t number = 0;
+    for (const char *at = c->parameters; *at && *at != ')'; at++) {
+        bool begins = is_name(*at) && (at == c->parameters || !is_name(at[-1]));
+        if (begins && strncmp(at, word, size) == 0 && !is_name(at[size]))
+            return number;
+        number += *at == ',';
+    }
+    return SIZE_MAX;
+}
+
+/* What stands for a parameter in the call, "tray(v)" of "(tray(v), bath)". */
+static const char *argument_of(const call *c, size_t number, size_t *size)
+{
+    const char *at = c->text + strcspn(c->text, "("), *end = at;
+    for (size_t i = 0; i <= number && *end && (i == 0 || *end == ','); i++) {
+        at = end + 1 + strspn(end + 1, " ");
+        end = end_of_argument(at);
+    }
+    *size = (size_t)(end - at);
+    return at;
+}
+
+/* The call in whose body the part is written; NULL: none. Arguments are written where the call is. */
+static const call *call_around(const adding *a, const tn_parts *parts, uint32_t part)
+{
+    const tn_source_map_record *place = tn_module_place(a->module, parts->parts[part].root);
+    const call *c = a->call;
+    while (c && (!place || !c->body || place->file != c->body->file || place->begin < c->body->begin ||
+                 place->end > c->body->end))
+        c = c->outer;
+    return c;
+}
+
+/* Puts what the call says in the place of its parameters in words about a part of its body. */
+static void put_arguments(const adding *a, const tn_parts *parts, uint32_t part, char *words, size_t room)
+{
+    const call *c = call_around(a, parts, part);
+    char made[TN_PART_TEXT_MAX + TN_RULE_WORDS_MAX];
+    size_t used = 0, size;
+    if (!c || !c->parameters)
+        return;
+    for (const char *at = words; *at && used < sizeof made; at += size) {
+        for (size = 0; is_name(at[size]);)
+            size++;
+        size_t number = size ? parameter_of(c, at, size) : SIZE_MAX, length = size ? size : 1;
+        size = length;
+        const char *put = number == SIZE_MAX ? at : argument_of(c, number, &length);
+        used += (size_t)snprintf(made + used, sizeof made - used, "%.*s", (int)length, put);
+    }
+    snprintf(words, room, "%s", used ? made : "");
+}
+
+/* What the call means, in a frame with its words. */
+static tn_status add_called(const adding *a, const tn_parts *called, tn_rule_box box, const char *text, uint32_t parent)
+{
+    const call c = {find_parameters(called, text), text, tn_module_place(a->module, called->parts[0].root), a->call};
+    uint32_t added;
+    box.kind = TN_BOX_ROW;
+    box.framed = box.alone = true;
+    tn_status status = tn_rule_box_add(a->boxes, parent, box, text, &added, a->error);
+    adding inside = *a;
+    inside.calls++;
+    inside.call = &c;
+    inside.bound = is_bound(a->bound, text) ? a->bound : NULL; /* otherwise its words are the function's own */
+    return status == TN_OK ? add_part(&inside, called, 0, added) : status;
 }
 
 static tn_status add_call(const adding *a, const tn_parts *parts, uint32_t part, const char *text, uint32_t parent)
 {
     tn_parts called;
-    tn_rule_box box = box_of(a, parts, part);
-    uint32_t added;
     tn_status status = tn_parts_read(a->module, parts->parts[part].function, &called, a->error);
-    if (status == TN_OK) {
-        box.kind = TN_BOX_ROW;
-        box.framed = box.alone = true;
-        status = tn_rule_box_add(a->boxes, parent, box, text, &added, a->error);
-    }
-    if (status == TN_OK) {
-        adding inside = *a;
-        inside.calls++;
-        inside.bound = NULL; /* its words are the function's own */
-        status = add_part(&inside, &called, 0, added);
-    }
+    if (status == TN_OK)
+        status = add_called(a, &called, box_of(a, parts, part), text, parent);
     tn_parts_clear(&called);
     return status;
 }
@@ -395,7 +491,8 @@ static tn_status add_part(const adding *outer, const tn_parts *parts, uint32_t p
     uint32_t added, body;
     a->depth++;
     tn_part_text(parts, part, text, sizeof text);
-    if (is_opened(a, &parts->parts[part], text))
+    put_arguments(a, parts, part, text, sizeof text);
+    if (is_opened(a, &parts->parts[part]))
         return add_call(a, parts, part, text, parent);
     body = box.kind == TN_BOX_TAG ? TN_NO_PART : body_of(parts, part, text);
     if (body != TN_NO_PART)
@@ -407,6 +504,7 @@ static tn_status add_part(const adding *outer, const tn_parts *parts, uint32_t p
     if (box.kind == TN_BOX_TAG || box.kind == TN_BOX_LABEL)
         return tn_rule_box_add(a->boxes, parent, box, text, &added, a->error);
     words_of(parts, part, words);
+    put_arguments(a, parts, part, words, sizeof words);
     tn_status status = tn_rule_box_add(a->boxes, parent, box, words, &added, a->error);
     return status == TN_OK ? add_children(a, parts, part, added) : status;
 }
