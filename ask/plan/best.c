@@ -96,13 +96,23 @@ static tn_status refuse_many(tn_session *session, uint64_t wanted, unsigned most
     return tn_session_refuse(session, NULL, "--diverse chooses at most %u %s, not %s", most, what, text);
 }
 
-char *tn_wish_text(const tn_wishes *wishes, uint32_t k, const mpq_t value)
+static char *write_value(tn_amount_unit unit, const mpq_t value)
 {
     tn_buffer text = {0};
-    if (tn_amount_write(wishes->units[k], value, &text))
+    if (tn_amount_write(unit, value, &text))
         return text.data;
     free(text.data);
     return NULL;
+}
+
+char *tn_wish_text(const tn_wishes *wishes, uint32_t k, const mpq_t value)
+{
+    return write_value(wishes->units[k], value);
+}
+
+char *tn_wish_caption(const tn_wishes *wishes, uint32_t k, const mpq_t value)
+{
+    return write_value(tn_amount_unit_shown(wishes->units[k]), value);
 }
 
 /* ---- plans */

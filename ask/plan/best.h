@@ -20,6 +20,9 @@ tn_status tn_wishes_of_plans(tn_session *session, const tn_ready_library *ready,
 /* A value for people (malloc); NULL: out of memory. */
 char *tn_wish_text(const tn_wishes *wishes, uint32_t k, const mpq_t value);
 
+/* The same with its unit as pictures have it. */
+char *tn_wish_caption(const tn_wishes *wishes, uint32_t k, const mpq_t value);
+
 /* ---- what answers carry for pictures (tn_boxed); each borrows from the session */
 
 /* The front of a library of plans. */

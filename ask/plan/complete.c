@@ -166,7 +166,9 @@ tn_status tn_open_why_none(const tn_ready_library *ready, const tn_open_plan *op
 
 /* ---- draws what may still be chosen in an open plan */
 
-char *tn_open_best_text(const tn_open_choices *c, size_t at)
+/* write: tn_wish_text, or tn_wish_caption of pictures. */
+static char *write_best(const tn_open_choices *c, size_t at,
+                        char *(*write)(const tn_wishes *wishes, uint32_t k, const mpq_t value))
 {
     mpq_t value;
     if (!c->found.best || c->found.best[at] == TN_NO_BEST)
@@ -174,9 +176,14 @@ char *tn_open_best_text(const tn_open_choices *c, size_t at)
     mpq_init(value);
     mpq_set_si(value, c->found.best[at], 1);
     mpq_mul(value, value, c->step);
-    char *text = tn_wish_text(&c->wishes, 0, value);
+    char *text = write(&c->wishes, 0, value);
     mpq_clear(value);
     return text;
+}
+
+char *tn_open_best_text(const tn_open_choices *c, size_t at)
+{
+    return write_best(c, at, tn_wish_text);
 }
 
 void tn_open_best_name(const tn_open_choices *c, char *text, size_t size)
@@ -194,7 +201,7 @@ static bool take_choices(const tn_open_choices *c, tn_drawn_choice *choices)
                 tn_drawn_choice *choice = choices++;
                 choice->share = tn_bins_share(c->found.counts[at], c->found.plans);
                 choice->count = tn_digits(c->found.counts[at], true);
-                choice->best = tn_open_best_text(c, at);
+                choice->best = write_best(c, at, tn_wish_caption);
                 ok = choice->count && (choice->best || !c->found.best || c->found.best[at] == TN_NO_BEST);
             }
     return ok;

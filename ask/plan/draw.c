@@ -178,14 +178,14 @@ static bool begins(void *context, tn_found_of *of)
     return true;
 }
 
-/* "3.  cost 87,880, area 304 ft2"; NULL: out of memory. */
+/* "3.  cost 87,880, area 304 sf"; NULL: out of memory. */
 static char *caption_of(const sheet *s, const tn_found_one *found)
 {
     tn_buffer caption = {0};
     bool ok = tn_buffer_printf(&caption, "%zu.  ", s->drawn.count + 1);
     for (uint32_t k = 0; ok && k < s->wishes.count; k++)
         ok = tn_buffer_printf(&caption, "%s%s ", k ? ", " : "", s->wishes.names[k]) &&
-             tn_amount_write(s->wishes.units[k], found->values[k], &caption);
+             tn_amount_write(tn_amount_unit_shown(s->wishes.units[k]), found->values[k], &caption);
     if (ok)
         return caption.data;
     free(caption.data);
@@ -437,10 +437,9 @@ static tn_status say_cost(pictured *p, size_t used, tn_error *error)
 static tn_status describe(pictured *p, tn_error *error)
 {
     double nm2;
-    const char *unit = tn_house_area_unit(p->house.form, &nm2);
-    bool feet = strcmp(unit, "sf") == 0;
-    int used =
-        snprintf(p->said, SAID_SIZE, "%.*f %s", feet ? 0 : 1, (double)tn_house_floor_area(&p->house) / nm2, unit);
+    bool feet = strcmp(tn_house_area_unit(p->house.form, &nm2), "sf") == 0;
+    int used = snprintf(p->said, SAID_SIZE, "%.*f %s", feet ? 0 : 1, (double)tn_house_floor_area(&p->house) / nm2,
+                        feet ? "sf" : "m\xc2\xb2");
     return say_cost(p, (size_t)used, error);
 }
 
@@ -493,7 +492,7 @@ static tn_status say_values(const collection *c, pictured *p, tn_error *error)
     bool ok = true;
     for (uint32_t k = 0; ok && k < s->found.count && used < SAID_SIZE; k++) {
         tn_houses_search_value(s, k, value);
-        char *text = tn_wish_text(&s->found, k, value);
+        char *text = tn_wish_caption(&s->found, k, value);
         ok = text != NULL;
         if (ok)
             used +=

@@ -193,7 +193,7 @@ static void write_statistics(const tn_spread *p, FILE *out)
 
 static void put_bound(const tn_spread *p, const mpq_t value, tn_buffer *text)
 {
-    tn_amount_unit plain = {p->bins.unit.feet, 0};
+    tn_amount_unit plain = {.feet = p->bins.unit.feet};
     tn_amount_write(plain, value, text);
 }
 

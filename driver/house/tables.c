@@ -307,7 +307,7 @@ static void put_nanometres(tn_house_tables *t, tn_int128 number, int power)
     }
     if (below)
         mpq_neg(value, value);
-    tn_amount_convert((tn_amount_unit){t->feet, power}, value);
+    tn_amount_convert((tn_amount_unit){.feet = t->feet, .power = power}, value);
     put_real(t, value);
     mpq_clear(value);
 }

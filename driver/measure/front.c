@@ -189,7 +189,7 @@ tn_status tn_front_picture(const tn_shown_front *shown, tn_picture *to, tn_error
                                   "there, or all where there are fewer. The bars beside are of all plans."};
     tn_status status = TN_OK;
     for (uint32_t k = 0; status == TN_OK && k < shown->count; k++) {
-        s.unit[k] = tn_amount_unit_of(shown->ready->schema, tn_weighed_power(shown->weighed, k));
+        s.unit[k] = tn_amount_unit_shown(tn_amount_unit_of(shown->ready->schema, tn_weighed_power(shown->weighed, k)));
         status = find_bars(&s, k, error);
     }
     if (status == TN_OK)

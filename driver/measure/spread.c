@@ -82,10 +82,24 @@ tn_status tn_spread_make(tn_spread *s, const tn_ready_library *ready, uint32_t m
     return status == TN_OK ? tn_spread_finish(s, error) : status;
 }
 
+static void clear_facts(tn_spread *s)
+{
+    for (unsigned i = 0; i < TN_SPREAD_FACTS; i++) {
+        free(s->facts[i]);
+        s->facts[i] = NULL;
+    }
+}
+
+tn_status tn_spread_show(tn_spread *s, tn_error *error)
+{
+    clear_facts(s);
+    s->bins.unit.shown = true;
+    return tn_spread_finish(s, error);
+}
+
 void tn_spread_clear(tn_spread *s)
 {
-    for (unsigned i = 0; i < TN_SPREAD_FACTS; i++)
-        free(s->facts[i]);
+    clear_facts(s);
     tn_bins_clear(&s->bins);
     tn_distribution_clear(&s->d);
     tn_weighed_free(s->weighed);
@@ -140,7 +154,7 @@ static bool write_about(const tn_spread *s, tn_buffer *text)
                                 s->library, s->d.count, s->d.count == 1 ? "" : "s");
     if (ok && s->bins.binned)
         ok = tn_buffer_printf(text, ", in bins of ") &&
-             tn_amount_write((tn_amount_unit){s->bins.unit.feet, 0}, s->bins.step, text) &&
+             tn_amount_write((tn_amount_unit){.feet = s->bins.unit.feet}, s->bins.step, text) &&
              tn_buffer_printf(text, "%s%s", *unit ? " " : "", unit);
     char *without = ok && mpz_sgn(s->d.without) > 0 ? tn_digits(s->d.without, true) : NULL;
     if (without)
@@ -163,7 +177,8 @@ static void take_numbers(const tn_spread *s, tn_histogram *h)
         h->facts[h->fact_count] = (tn_chart_fact){s->names[h->fact_count], s->facts[h->fact_count]};
 }
 
-tn_status tn_spread_draw(const tn_spread *s, tn_picture *to, tn_error *error)
+/* s: with units as pictures have them. */
+static tn_status draw(const tn_spread *s, tn_picture *to, tn_error *error)
 {
     tn_chart_bar *bars = NULL;
     tn_buffer about = {0};
@@ -178,5 +193,16 @@ tn_status tn_spread_draw(const tn_spread *s, tn_picture *to, tn_error *error)
     }
     free(about.data);
     free(bars);
+    return status;
+}
+
+tn_status tn_spread_draw(const tn_spread *spread, tn_picture *to, tn_error *error)
+{
+    tn_spread shown = *spread;
+    memset(shown.facts, 0, sizeof shown.facts);
+    tn_status status = tn_spread_show(&shown, error);
+    if (status == TN_OK)
+        status = draw(&shown, to, error);
+    clear_facts(&shown);
     return status;
 }

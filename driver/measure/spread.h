@@ -28,6 +28,9 @@ void tn_spread_clear(tn_spread *spread);
 void tn_spread_begin(tn_spread *spread, const tn_schema *schema, int power);
 tn_status tn_spread_finish(tn_spread *spread, tn_error *error); /* says it in words */
 
+/* Spells units as pages do, m² for m2. */
+tn_status tn_spread_show(tn_spread *spread, tn_error *error);
+
 /* The histogram, of the rows that the bins are set to. */
 tn_status tn_spread_draw(const tn_spread *spread, tn_picture *to, tn_error *error);
 

@@ -129,6 +129,8 @@ static tn_status add_measure(const tn_reporting *r, uint32_t number, tn_reported
     tn_reported_measure *added = &measures->items[measures->count++];
     *added = (tn_reported_measure){.measure = number};
     tn_status status = tn_spread_make(&added->spread, r->ready, number, r->page.error);
+    if (status == TN_OK)
+        status = tn_spread_show(&added->spread, r->page.error);
     if (status != TN_LIMIT)
         return status;
     added->limit = strdup(r->page.error->message);

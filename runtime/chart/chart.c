@@ -180,33 +180,51 @@ static void bar_sides(const histogram_picture *p, const tn_chart_bar *bar, doubl
     *right = middle + half;
 }
 
+static double bar_top(const histogram_picture *p, const tn_chart_bar *bar)
+{
+    return fmin(chart_at(&p->up, 100 * bar->share), p->up.from - LEAST_BAR);
+}
+
 /* All of the plot above and below it belongs to a bar: one that is low can be clicked, too. */
-static void draw_bar(const histogram_picture *p, size_t i, bool says)
+static void draw_bar(const histogram_picture *p, size_t i)
 {
     const tn_chart_bar *bar = &p->h->bars[i];
-    double left, right, y = fmin(chart_at(&p->up, 100 * bar->share), p->up.from - LEAST_BAR);
-    char text[32];
+    double left, right, y = bar_top(p, bar);
     bar_sides(p, bar, &left, &right);
     tn_paint_group_begin(p->paint, TN_PAINT_BAR, i);
     tn_paint_target(p->paint, left, TOP, right - left, BOTTOM - TOP);
     ink(p->paint, BAR);
     tn_paint_rectangle(p->paint, left, y, right - left, p->up.from - y);
     tn_paint_fill(p->paint);
-    if (says) {
-        ink(p->paint, BLACK);
-        snprintf(text, sizeof text, bar->share >= 0.0005 ? "%.1f %%" : "< 0.1 %%", 100 * bar->share);
-        tn_type_line(p->paint, (left + right) / 2, y - 2.5, TN_ALIGN_CENTRE, text);
-    }
     tn_paint_group_end(p->paint);
 }
 
 static void draw_bars(const histogram_picture *p)
 {
-    bool says = p->h->count > 0 && bar_pitch(p) >= SHARE_ROOM;
-    tn_paint_face(p->paint, SMALL, false);
     for (size_t i = 0; i < p->h->count; i++)
         if (p->h->bars[i].share > 0)
-            draw_bar(p, i, says);
+            draw_bar(p, i);
+}
+
+/* What share a bar is, above it: over the lines through the bars. */
+static void say_share(const histogram_picture *p, const tn_chart_bar *bar)
+{
+    double left, right, y = bar_top(p, bar) - 2.5;
+    char text[32];
+    bar_sides(p, bar, &left, &right);
+    snprintf(text, sizeof text, bar->share >= 0.0005 ? "%.1f %%" : "< 0.1 %%", 100 * bar->share);
+    double width = tn_type_width(p->paint, text) + 2;
+    tn_type_veil(p->paint, (left + right - width) / 2, y - SMALL * 0.8, width, SMALL, 1);
+    ink(p->paint, BLACK);
+    tn_type_line(p->paint, (left + right) / 2, y, TN_ALIGN_CENTRE, text);
+}
+
+static void say_shares(const histogram_picture *p)
+{
+    tn_paint_face(p->paint, SMALL, false);
+    for (size_t i = 0; p->h->count > 0 && bar_pitch(p) >= SHARE_ROOM && i < p->h->count; i++)
+        if (p->h->bars[i].share > 0)
+            say_share(p, &p->h->bars[i]);
 }
 
 /* The line from least to most, the box that holds the middle half, its line where half of all are below, and the mean.
@@ -331,6 +349,7 @@ tn_status tn_histogram_draw(const tn_histogram *h, tn_picture *to, tn_error *err
         draw_bar_axes(&p);
         draw_bars(&p);
         draw_guides(&p);
+        say_shares(&p);
         draw_box(&p);
         draw_facts(&p);
     }

@@ -26,15 +26,23 @@ tn_amount_unit tn_amount_unit_of(const tn_schema *schema, int power)
         feet = !strchr(text, 'm');
         break;
     }
-    return (tn_amount_unit){feet, power};
+    return (tn_amount_unit){feet, power, false};
 }
 
 const char *tn_amount_unit_name(tn_amount_unit unit)
 {
     enum { MOST = 3 };
-    static const char *const names[2][2 * MOST + 1] = {{"/m3", "/m2", "/m", "", "m", "m2", "m3"},
-                                                       {"/ft3", "/ft2", "/ft", "", "ft", "ft2", "ft3"}};
-    return abs(unit.power) <= MOST ? names[unit.feet][MOST + unit.power] : "";
+    static const char *const names[2][2][2 * MOST + 1] = {
+        {{"/m3", "/m2", "/m", "", "m", "m2", "m3"}, {"/ft3", "/ft2", "/ft", "", "ft", "ft2", "ft3"}},
+        {{"/m\xc2\xb3", "/m\xc2\xb2", "/m", "", "m", "m\xc2\xb2", "m\xc2\xb3"},
+         {"/cf", "/sf", "/ft", "", "ft", "sf", "cf"}}};
+    return abs(unit.power) <= MOST ? names[unit.shown][unit.feet][MOST + unit.power] : "";
+}
+
+tn_amount_unit tn_amount_unit_shown(tn_amount_unit unit)
+{
+    unit.shown = true;
+    return unit;
 }
 
 void tn_amount_convert(tn_amount_unit unit, mpq_t value)

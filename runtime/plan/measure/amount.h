@@ -10,10 +10,14 @@
 
 typedef struct tn_amount_unit {
     bool feet;
-    int power; /* of a length: 0 a plain number; below 0 a number by a length, an area, a volume */
+    int power;  /* of a length: 0 a plain number; below 0 a number by a length, an area, a volume */
+    bool shown; /* spelled as pictures and pages have it, "m²", "sf"; otherwise as rules are written, "m2", "ft2" */
 } tn_amount_unit;
 
 tn_amount_unit tn_amount_unit_of(const tn_schema *schema, int power);
+
+/* The same unit, spelled for a picture or a page. */
+tn_amount_unit tn_amount_unit_shown(tn_amount_unit unit);
 
 /* "ft2", "m", "/m2", or "" for a plain number. */
 const char *tn_amount_unit_name(tn_amount_unit unit);

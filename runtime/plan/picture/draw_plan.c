@@ -11,7 +11,7 @@
 /* ---- one plan as a table */
 
 #define TABLE_SIZE 6.0
-#define ROW_HEIGHT 9.0
+#define ROW_HEIGHT 10.0
 #define BOX_MIN 22.0
 #define HEAD_SIZE 7.6 /* of what a tray is for */
 #define HEAD_HEIGHT 15.0

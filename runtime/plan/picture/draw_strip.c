@@ -260,7 +260,7 @@ static void list_fields(strip *s)
     const tn_schema *schema = s->roles->schema;
     s->rows = (unsigned)((TN_STRIP_HEIGHT - 24) / 10);
     heading(s, "FIELDS");
-    double column = (s->width - PADDING) / 2;
+    double column = (s->width - PADDING) / (schema->field_count > s->rows ? 2 : 1);
     for (uint32_t f = 0; f < schema->field_count && f < 2 * s->rows; f++) {
         double x = s->x + PADDING + (f / s->rows) * column, baseline = s->y + 26 + (f % s->rows) * 10;
         const char *name = text_at(s, schema->fields[f].name);
