@@ -3,10 +3,10 @@
 `tartan house -o FOLDER/` writes it). READER is ifc_read.cc, made: it has to find the same products with the same volumes in the IFC. TEXT is
 what the house is called.
 
-The IFC is parsed as STEP; each instance has to have as many attributes as IFC4 gives its entity, of their types (ISO 16739-1:2018, inherited ones
-included), each reference has to lead to an instance of an entity that may stand there, and identifiers are unique. Volumes and numbers
-of parts are those of the JSON, and so are names, letter by letter; every door hangs and swings as the plans in the DXF draw it. The DXF is
-read as groups, and by ezdxf where that is installed; the IFC is validated by IfcOpenShell where that is installed."""
+The IFC is held to the rules of ifc_file.py. Volumes and numbers of parts are those of the JSON, and so are names, letter by letter; walls meet
+where their faces do, and take up what the JSON has as posts there; spaces are bounded by what is around them; every door hangs and swings as the
+plans in the DXF draw it. The DXF is read as groups, and by ezdxf where that is installed; the IFC is validated by IfcOpenShell where that is
+installed."""
 import argparse
 import csv
 import importlib.util
@@ -15,174 +15,11 @@ import math
 import re
 import subprocess
 import sys
-from collections import Counter
+from collections import Counter, defaultdict
 from fractions import Fraction as F
 
 import house_prisms
-
-# The attributes of each entity, inherited ones first: S text, E enumeration, R real, I integer, N instance, A list of instances, V list of
-# numbers, L list of such lists, D derived (*), B a value that is true or false. Small letters: it may be left out ($).
-ROOT, PRODUCT = "Snss", "Snsssnn"
-ELEMENT, SPATIAL = PRODUCT + "s", PRODUCT + "se"
-TYPES = {
-    "IFCAXIS2PLACEMENT2D": "Nn", "IFCAXIS2PLACEMENT3D": "Nnn", "IFCBUILDING": SPATIAL + "rrn",
-    "IFCBUILDINGSTOREY": SPATIAL + "r", "IFCCARTESIANPOINT": "V", "IFCCARTESIANPOINTLIST3D": "L", "IFCCOLUMN": ELEMENT + "e", "IFCBEAM": ELEMENT + "e", "IFCDIRECTION": "V", "IFCDOOR": ELEMENT + "rrees",
-    "IFCELEMENTQUANTITY": ROOT + "sA", "IFCEXTRUDEDAREASOLID": "NnNR", "IFCFURNITURE": ELEMENT + "e",
-    "IFCGEOMETRICREPRESENTATIONCONTEXT": "ssIrNn", "IFCGEOMETRICREPRESENTATIONSUBCONTEXT": "ssDDDDNrEs", "IFCLOCALPLACEMENT": "nN",
-    "IFCINDEXEDPOLYGONALFACE": "V", "IFCMATERIAL": "Sss", "IFCMATERIALLAYER": "nResssi", "IFCMATERIALLAYERSET": "Ass",
-    "IFCMATERIALLAYERSETUSAGE": "NEERr", "IFCOPENINGELEMENT": ELEMENT + "e", "IFCPOLYGONALFACESET": "NEAv", "IFCPROPERTYSET": ROOT + "A", "IFCPROPERTYSINGLEVALUE": "SsBn", "IFCPRODUCTDEFINITIONSHAPE": "ssA", "IFCPROJECT": ROOT + "sssan",
-    "IFCQUANTITYAREA": "SsnRs", "IFCQUANTITYVOLUME": "SsnRs", "IFCRAILING": ELEMENT + "e", "IFCRECTANGLEPROFILEDEF": "EsnRR", "IFCRELAGGREGATES": ROOT + "NA",
-    "IFCRELASSOCIATESMATERIAL": ROOT + "AN", "IFCRELCONTAINEDINSPATIALSTRUCTURE": ROOT + "AN", "IFCRELDEFINESBYPROPERTIES": ROOT + "AN",
-    "IFCRELFILLSELEMENT": ROOT + "NN", "IFCRELSPACEBOUNDARY": ROOT + "NNnEE", "IFCRELVOIDSELEMENT": ROOT + "NN", "IFCROOF": ELEMENT + "e",
-    "IFCSHAPEREPRESENTATION": "NssA", "IFCSITE": SPATIAL + "vvrsn", "IFCSIUNIT": "DEeE", "IFCSLAB": ELEMENT + "e", "IFCSPACE": SPATIAL + "er",
-    "IFCSTAIR": ELEMENT + "e", "IFCUNITASSIGNMENT": "A", "IFCWALL": ELEMENT + "e", "IFCWINDOW": ELEMENT + "rrees",
-}
-NUMBER = r"-?\d+(\.\d*(E[+-]?\d+)?)?"
-WRITTEN = {
-    "S": r"'([ -&(-\[\]-~]|''|\\\\|\\X2\\([0-9A-F]{4})+\\X0\\|\\X4\\([0-9A-F]{8})+\\X0\\)*'",
-    "E": r"\.[A-Z0-9_]+\.", "R": r"-?\d+\.\d*(E[+-]?\d+)?", "I": r"-?\d+", "N": r"#\d+", "A": r"\(#\d+(,#\d+)*\)",
-    "B": r"IFCBOOLEAN\(\.[TF]\.\)", "V": rf"\({NUMBER}(,{NUMBER})*\)", "L": rf"\(\({NUMBER}(,{NUMBER})*\)(,\({NUMBER}(,{NUMBER})*\))*\)", "D": r"\*",
-}
-# (entity, attribute) -> the values of its enumeration that houses have
-VALUES = {
-    ("IFCWALL", 8): "SOLIDWALL PARTITIONING", ("IFCSLAB", 8): "FLOOR BASESLAB ROOF", ("IFCRAILING", 8): "GUARDRAIL", ("IFCDOOR", 10): "DOOR", ("IFCWINDOW", 10): "WINDOW",
-    ("IFCROOF", 8): "FLAT_ROOF SHED_ROOF GABLE_ROOF BARREL_ROOF HIP_ROOF NOTDEFINED",
-    ("IFCMATERIALLAYERSETUSAGE", 1): "AXIS2 AXIS3", ("IFCMATERIALLAYERSETUSAGE", 2): "POSITIVE NEGATIVE", ("IFCRELSPACEBOUNDARY", 7): "PHYSICAL", ("IFCRELSPACEBOUNDARY", 8): "INTERNAL EXTERNAL", ("IFCSPACE", 8): "ELEMENT", ("IFCSPACE", 9): "INTERNAL EXTERNAL",
-}
-ELEMENTS = "IFCWALL IFCBEAM IFCCOLUMN IFCSLAB IFCROOF IFCSTAIR IFCRAILING IFCFURNITURE IFCDOOR IFCWINDOW".split()
-PRODUCTS = ELEMENTS + ["IFCOPENINGELEMENT", "IFCSPACE", "IFCSITE", "IFCBUILDING", "IFCBUILDINGSTOREY"]
-# attribute -> what it may refer to
-REFERENCES = {
-    ("IFCLOCALPLACEMENT", 0): ["IFCLOCALPLACEMENT"], ("IFCLOCALPLACEMENT", 1): ["IFCAXIS2PLACEMENT3D"],
-    ("IFCEXTRUDEDAREASOLID", 0): ["IFCRECTANGLEPROFILEDEF"],
-    ("IFCEXTRUDEDAREASOLID", 1): ["IFCAXIS2PLACEMENT3D"], ("IFCEXTRUDEDAREASOLID", 2): ["IFCDIRECTION"],
-    ("IFCPOLYGONALFACESET", 0): ["IFCCARTESIANPOINTLIST3D"], ("IFCPOLYGONALFACESET", 2): ["IFCINDEXEDPOLYGONALFACE"],
-    ("IFCSHAPEREPRESENTATION", 3): ["IFCEXTRUDEDAREASOLID", "IFCPOLYGONALFACESET"], ("IFCPRODUCTDEFINITIONSHAPE", 2): ["IFCSHAPEREPRESENTATION"],
-    ("IFCRELVOIDSELEMENT", 4): ["IFCWALL"], ("IFCRELVOIDSELEMENT", 5): ["IFCOPENINGELEMENT"],
-    ("IFCRELFILLSELEMENT", 4): ["IFCOPENINGELEMENT"], ("IFCRELFILLSELEMENT", 5): ["IFCDOOR", "IFCWINDOW"],
-    ("IFCRELCONTAINEDINSPATIALSTRUCTURE", 4): ELEMENTS, ("IFCRELCONTAINEDINSPATIALSTRUCTURE", 5): ["IFCBUILDINGSTOREY"],
-    ("IFCMATERIALLAYER", 0): ["IFCMATERIAL"], ("IFCMATERIALLAYERSET", 0): ["IFCMATERIALLAYER"], ("IFCMATERIALLAYERSETUSAGE", 0): ["IFCMATERIALLAYERSET"],
-    ("IFCRELAGGREGATES", 4): ["IFCPROJECT", "IFCSITE", "IFCBUILDING", "IFCBUILDINGSTOREY", "IFCROOF"],
-    ("IFCRELAGGREGATES", 5): ["IFCSITE", "IFCBUILDING", "IFCBUILDINGSTOREY", "IFCSPACE", "IFCSLAB"],
-    ("IFCRELSPACEBOUNDARY", 4): ["IFCSPACE"], ("IFCRELSPACEBOUNDARY", 5): ["IFCWALL"],
-    ("IFCRELDEFINESBYPROPERTIES", 5): ["IFCELEMENTQUANTITY", "IFCPROPERTYSET"], ("IFCPROPERTYSET", 4): ["IFCPROPERTYSINGLEVALUE"], ("IFCRELASSOCIATESMATERIAL", 5): ["IFCMATERIAL", "IFCMATERIALLAYERSET", "IFCMATERIALLAYERSETUSAGE"],
-    ("IFCPROJECT", 8): ["IFCUNITASSIGNMENT"],
-    **{(p, 5): ["IFCLOCALPLACEMENT"] for p in PRODUCTS}, **{(p, 6): ["IFCPRODUCTDEFINITIONSHAPE"] for p in PRODUCTS},
-}
-failures = []
-
-
-def check(what, holds):
-    if not holds:
-        failures.append(what)
-
-
-def arguments(text):
-    """The attributes of an instance: split at commas outside of brackets and quotes."""
-    parts, depth, quoted, start = [], 0, False, 0
-    for i, c in enumerate(text):
-        if c == "'":
-            quoted = not quoted
-        elif not quoted and c in "()":
-            depth += 1 if c == "(" else -1
-        elif not quoted and c == "," and depth == 0:
-            parts.append(text[start:i])
-            start = i + 1
-    return parts + [text[start:]]
-
-
-def read_ifc(path):
-    text = open(path, encoding="ascii").read()
-    check("a STEP file", text.startswith("ISO-10303-21;\nHEADER;\n") and text.endswith("ENDSEC;\nEND-ISO-10303-21;\n"))
-    made = {}
-    for line in text.split("DATA;\n")[1].split("ENDSEC;")[0].splitlines():
-        number, name, inside = re.fullmatch(r"#(\d+)=(\w+)\((.*)\);", line).groups()
-        check(f"#{number} once", int(number) not in made)
-        made[int(number)] = (name, arguments(inside))
-    return made
-
-
-def references(argument):
-    return [int(n) for n in re.findall(r"#(\d+)", re.sub(r"'[^']*'", "", argument))]
-
-
-def spelt(argument):
-    """What an IFC string says. A surrogate is no character of its own there (ISO 10303-21, 6.4.3)."""
-    def written(found):
-        digits, width = found.group(2), 4 if found.group(1) == "2" else 8
-        numbers = [int(digits[i:i + width], 16) for i in range(0, len(digits), width)]
-        check(f"{argument}: characters of Unicode", not any(0xD800 <= n < 0xE000 for n in numbers))
-        check(f"{argument}: no shorter run does", width == 4 or all(n > 0xFFFF for n in numbers))
-        return "".join(map(chr, numbers))
-
-    check(f"{argument} is a string", re.fullmatch(WRITTEN["S"], argument))
-    parts = re.split(r"\\X([24])\\([0-9A-F]+)\\X0\\", argument[1:-1])
-    for i in range(0, len(parts), 3):
-        parts[i] = parts[i].replace("''", "'").replace("\\\\", "\\")
-    for i in range(1, len(parts), 3):
-        parts[i + 1] = written(re.match(r"(.)(.*)", parts[i] + parts[i + 1]))
-        parts[i] = ""
-    return "".join(parts)
-
-
-def check_ifc(made):
-    ids = Counter()
-    for number, (name, args) in made.items():
-        check(f"{name}, known", name in TYPES)
-        check(f"#{number}={name} has {len(args)} attributes", len(args) == len(TYPES.get(name, "")))
-        for i, (argument, wanted) in enumerate(zip(args, TYPES.get(name, ""))):
-            left_out = argument == "$" and wanted.islower()
-            check(f"#{number}={name}: attribute {i} is {argument}", left_out or re.fullmatch(WRITTEN[wanted.upper()], argument))
-            values = VALUES.get((name, i))
-            check(f"#{number}={name}: {argument}", values is None or argument.strip(".") in values.split())
-        for i, argument in enumerate(args):
-            for to in references(argument):
-                check(f"#{number} refers to #{to}", to in made)
-                wanted = REFERENCES.get((name, i))
-                check(f"#{number}={name}: {made[to][0]} as attribute {i}", wanted is None or made[to][0] in wanted)
-        if name.startswith("IFCREL") or name in PRODUCTS or name in ("IFCPROJECT", "IFCELEMENTQUANTITY", "IFCPROPERTYSET"):
-            check(f"#{number}: an identifier", re.fullmatch(r"'[0-3][0-9A-Za-z_$]{21}'", args[0]))
-            ids[args[0]] += 1
-    check("identifiers are unique", all(n == 1 for n in ids.values()))
-    inside = Counter(to for name, args in made.values() if name == "IFCRELCONTAINEDINSPATIALSTRUCTURE" for to in references(args[4]))
-    roofs = [args for name, args in made.values() if name == "IFCRELAGGREGATES" and made[references(args[4])[0]][0] == "IFCROOF"]
-    inside += Counter(to for args in roofs for to in references(args[5]))
-    for number, (name, _) in made.items():
-        check(f"#{number}={name} is in one storey, or of a roof there", name not in ELEMENTS or inside[number] == 1)
-
-
-def volume_of_faces(made, args):
-    """Of a solid of flat faces: each of its edges is between two of them."""
-    points = [tuple(F(c) for c in point.split(",")) for point in made[references(args[0])[0]][1][0].strip("()").split("),(")]
-    rings = [[points[int(n) - 1] for n in made[face][1][0].strip("()").split(",")] for face in references(args[2])]
-    edges = Counter((a, b) for ring in rings for a, b in zip(ring, ring[1:] + ring[:1]))
-    check("a solid is closed", all(n == 1 and edges[b, a] == 1 for (a, b), n in edges.items()))
-    total = F(0)
-    for ring in rings:
-        for b, c in zip(ring[1:], ring[2:]):
-            u, v, w = ([p[k] - points[0][k] for k in range(3)] for p in (ring[0], b, c))
-            total += sum(u[k] * (v[k - 2] * w[k - 1] - v[k - 1] * w[k - 2]) for k in range(3)) / 6
-    check("and has a volume", total > 0)
-    return total
-
-
-def volume_of(made, product):
-    """Cubic millimetres, of all solids of its shape."""
-    total = F(0)
-    if made[product][1][6] == "$":
-        return total
-    shape = made[references(made[product][1][6])[0]]
-    for representation in references(shape[1][2]):
-        for solid in references(made[representation][1][3]):
-            if made[solid][0] == "IFCPOLYGONALFACESET":
-                total += volume_of_faces(made, made[solid][1])
-                continue
-            profile, _, _, depth = made[solid][1]
-            name, args = made[references(profile)[0]]
-            area = F(args[3]) * F(args[4])
-            check("a solid has a volume", area > 0 and F(depth) > 0)
-            total += area * F(depth)
-    return total
+from ifc_file import PRODUCTS, box_of, boxes_of, check, check_file, findings, in_millimetres, is_in_feet, numbers_of, of_kind, placed, points_of, read, references, related, sets_of, solids_of, spelt, volume_of
 
 
 def has_leaf(kind):
@@ -190,25 +27,47 @@ def has_leaf(kind):
     return not kind.endswith("arch")
 
 
+WALLS = ("outside", "party", "partition")
+
+
+def free_posts(house):
+    """Those that no wall takes: none that ends there is as thick; or all, if the form makes posts of something of which it makes no wall."""
+    materials = {p["part"]: p.get("material") for p in house["parts"]}
+    apart = materials.get("post") and materials["post"] not in {materials.get(part) for part in ("wall", "party", "partition")}
+    layered = any("layers" in s for s in house["solids"])
+    walls = [s["box"] for s in house["solids"] if s["kind"] in WALLS]
+
+    def ends_at(wall, post, k):
+        """Along x (k = 0) or y."""
+        across = slice(2, 4) if k == 0 else slice(0, 2)
+        return wall[across] == post[across] and (wall[2 * k] == post[2 * k + 1] or wall[2 * k + 1] == post[2 * k]) and wall[4] < post[5] and post[4] < wall[5]
+
+    posts = [s["box"] for s in house["solids"] if s["kind"] == "post"]
+    return [p for p in posts if (apart and not layered) or not any(ends_at(w, p, k) for w in walls for k in (0, 1))]
+
+
 def compare(made, house):
-    of = lambda name: [n for n, (entity, _) in made.items() if entity == name]
+    of = lambda name: of_kind(made, name)
     box = lambda s: F((s["box"][1] - s["box"][0]) * (s["box"][3] - s["box"][2]) * (s["box"][5] - s["box"][4]), 10**18)
     kinds = Counter(s["kind"] for s in house["solids"])
-    walls = {(s["kind"], s["of"]) for s in house["solids"] if s["kind"] in ("outside", "party", "partition")}
+    walls = {(s["kind"], s["of"]) for s in house["solids"] if s["kind"] in WALLS}
     plain = {"wall", "party", "open", "floor", "stair"}
     wedges = house.get("wedges", [])
     flights = {s["of"] for s in house["solids"] if s["kind"] == "flight"} | {w["of"] for w in wedges}
     openings = [f for i, f in enumerate(house["faces"]) if f["kind"] not in plain and i not in flights]
     gables = {(r["of"], r.get("face")) for r in house["roofs"] if r["kind"] == "gable"}
     check("as many walls", len(of("IFCWALL")) == len(walls) + len(gables))
-    check("as many posts", len(of("IFCCOLUMN")) == kinds["post"])
+    beams = [s for s in house["solids"] if s["kind"] == "beam"]
+    if not beams:  # which cut posts
+        check("posts that stand free", len(of("IFCCOLUMN")) == len(free_posts(house)))
     slabs = {(r["of"], house_prisms.plane_of(house_prisms.corners_of(r), 3)) for r in house["roofs"] if r["kind"] == "roof"}
-    check("as many slabs", len(of("IFCSLAB")) == kinds["deck"] + kinds["roofdeck"] + len(slabs))
+    decks = {s["of"] for s in house["solids"] if s["kind"] == "deck"}
+    tops = {house["cells"][s["of"]]["storey"] for s in house["solids"] if s["kind"] == "roofdeck"}
+    by_kind = Counter(made[n][1][8].strip(".") for n in of("IFCSLAB"))
+    check("a slab for each deck and each plane of the roof", by_kind["FLOOR"] + by_kind["BASESLAB"] == len(decks) + len(tops) and by_kind["ROOF"] == len(slabs))
     check("as many guards", len(of("IFCRAILING")) == kinds["guard"])
     check("as many things", len(of("IFCFURNITURE")) == kinds["item"])
-    tops = {(house["cells"][of]["zone"], house["cells"][of]["storey"]) for of, _ in slabs}
-    check("a roof for each zone and storey", len(of("IFCROOF")) == len(tops))
-    beams = [s for s in house["solids"] if s["kind"] == "beam"]
+    check("one roof", len(of("IFCROOF")) == bool(slabs))
     pockets = [n for n in of("IFCOPENINGELEMENT") if made[n][1][-1] == ".RECESS."]
     check("pockets are of beams", beams or not pockets)
     check("as many openings", len(of("IFCOPENINGELEMENT")) == len(openings) + len(pockets))
@@ -216,28 +75,34 @@ def compare(made, house):
     check("as many doors and windows", len(of("IFCDOOR")) + len(of("IFCWINDOW")) == sum(has_leaf(f["kind"]) for f in openings))
     check("as many stairs", len(of("IFCSTAIR")) == sum(f["kind"] == "stair" for f in house["faces"]) + len(flights))
     check("as many rooms", len(of("IFCSPACE")) == len(house["rooms"]))
+    check("a zone for each function", Counter(made[n][1][2] for n in of("IFCZONE")) == Counter({f"'{r['function']}'": 1 for r in house["rooms"]}) or not all(r["function"].isascii() for r in house["rooms"]))
     named_as = lambda kind, name: [n for n in of(kind) if spelt(made[n][1][2]) == name]
     below = sum(volume_of(made, n) for n in named_as("IFCWALL", "gable"))
     over = sum(volume_of(made, n) for n in named_as("IFCSLAB", "roof"))
-    solid = sum(volume_of(made, n) for n in of("IFCWALL")) - below - sum(volume_of(made, n) for n in of("IFCOPENINGELEMENT"))
-    check("walls less openings", solid == sum(box(s) for s in house["solids"] if s["kind"] in ("outside", "party", "partition")))
+    standing = sum(volume_of(made, n) for n in of("IFCWALL") + of("IFCCOLUMN")) - below - sum(volume_of(made, n) for n in of("IFCOPENINGELEMENT"))
+    check("walls less openings, and posts", standing == sum(box(s) for s in house["solids"] if s["kind"] in WALLS + ("post",)))
     for entity, set_name in (("IFCWALL", "Pset_WallCommon"), ("IFCDOOR", "Pset_DoorCommon"), ("IFCWINDOW", "Pset_WindowCommon")):
-        said = {to: made[references(made[references(args[5])[0]][1][4])[0]][1][2][-4:-2] == ".T" for name, args in made.values() if name == "IFCRELDEFINESBYPROPERTIES"
-                and made[references(args[5])[0]][0] == "IFCPROPERTYSET" and spelt(made[references(args[5])[0]][1][2]) == set_name for to in references(args[4])}
-        asked = [n for n in of(entity) if entity != "IFCWALL" or spelt(made[n][1][2]) in ("outside", "party", "partition")]  # not gables
-        check(f"of each {entity} is said whether it is external", sorted(said) == sorted(asked))
+        said = {product: ".T." in values["IsExternal"] for product, name, values in sets_of(made, "IFCPROPERTYSET") if name == set_name and "IsExternal" in values}
+        asked = [n for n in of(entity) if entity != "IFCWALL" or spelt(made[n][1][2]) in WALLS]  # not gables
+        check(f"of each {entity} is said whether it is external", set(asked) <= set(said) <= set(of(entity)))
         if entity == "IFCWALL":
-            outer = {n for n in of(entity) if spelt(made[n][1][2]) == "outside"}
-            check("walls that are external", {n for n in said if said[n]} == outer and len(outer) == len([w for w in walls if w[0] == "outside"]))
-    rest = sum(volume_of(made, n) for name in ("IFCCOLUMN", "IFCBEAM", "IFCSLAB", "IFCFURNITURE", "IFCSTAIR", "IFCRAILING") for n in of(name)) - over
+            outer = {n for n in asked if spelt(made[n][1][2]) == "outside"}
+            check("walls that are external", {n for n in asked if said[n]} == outer and len(outer) == len([w for w in walls if w[0] == "outside"]))
+            bears = {product for product, name, values in sets_of(made, "IFCPROPERTYSET") if name == set_name and ".T." in values.get("LoadBearing", "")}
+            check("walls that bear", bears == {n for n in asked if spelt(made[n][1][2]) != "partition"})
+    rest = sum(volume_of(made, n) for name in ("IFCBEAM", "IFCSLAB", "IFCFURNITURE", "IFCSTAIRFLIGHT", "IFCRAILING") for n in of(name)) - over
     winding = F(sum(map(house_prisms.volume_of, wedges))) / 10**18
-    check("other boxes", rest == winding + sum(box(s) for s in house["solids"] if s["kind"] not in ("outside", "party", "partition")))
+    check("other boxes", rest == winding + sum(box(s) for s in house["solids"] if s["kind"] not in WALLS + ("post",)))
     materials = [spelt(made[n][1][0]) for n in of("IFCMATERIAL")]
     check("each material once", len(materials) == len(set(materials)))
     wanted = {p["material"] for p in house["parts"] if p.get("material") and int(p["number"])}
+    if not free_posts(house):
+        wanted -= {p.get("material") for p in house["parts"] if p["part"] == "post"} - {p.get("material") for p in house["parts"] if p["part"] != "post" and int(p["number"])}
     check(f"materials {wanted - set(materials)}", wanted <= set(materials))
     named = lambda *names: Counter(spelt(made[n][1][2]) for name in names for n in of(name))
-    check("rooms have their names", named("IFCSPACE") == Counter(r["function"] for r in house["rooms"]))
+    long_names = Counter(spelt(made[n][1][7]) for n in of("IFCSPACE"))
+    check("rooms have their names", long_names == Counter(re.sub("[-_]", " ", r["function"]) for r in house["rooms"]))
+    check("and numbers", all(n == 1 and re.fullmatch(r"\d+(\.\d\d+)?", name) for name, n in named("IFCSPACE").items()))
     check("doors and windows have theirs", named("IFCDOOR", "IFCWINDOW") == Counter(f["kind"] for f in openings if has_leaf(f["kind"])))
     check("things have theirs", named("IFCFURNITURE") == Counter(s["name"] for s in house["solids"] if s["kind"] == "item"))
     check("the project says the house", spelt(made[of("IFCPROJECT")[0]][1][3]) == house["house"])
@@ -246,13 +111,147 @@ def compare(made, house):
         check(f"volume of {kind}s", abs(said - wanted / 10**18) < 1)
 
 
-def read_again(reader, path, made):
-    """By another program: as many products of each kind, and the same volumes to a millionth."""
+# ---- quantities, walls, stairs and spaces
+
+
+def check_quantities(made, house):
+    """What sets of quantities say is what solids have; areas are those of the rooms."""
+    voids = defaultdict(list)
+    for wall, opening in related(made, "IFCRELVOIDSELEMENT", 4, 5):
+        voids[wall].append(opening)
+    near = lambda said, is_so: abs(F(said) - is_so) <= F(1, 10**6) + is_so / 10**6
+    for product, name, values in sets_of(made, "IFCELEMENTQUANTITY"):
+        args = made[product][1]
+        if "NetVolume" in values:
+            volume = volume_of(made, product) - sum(volume_of(made, n) for n in voids[product])
+            check(f"{name} says {values['NetVolume']} m3 of {float(volume / 10**9)}", near(values["NetVolume"], volume / 10**9))
+        if made[product][0] in ("IFCDOOR", "IFCWINDOW"):
+            check("sizes of what fills an opening", (F(values["Height"]), F(values["Width"])) == (F(args[8]), F(args[9])))
+            check("its area", near(values["Area"], F(args[8]) * F(args[9]) / 10**6))
+        if made[product][0] == "IFCWALL" and "Length" in values:
+            low, high, x, _, _ = box_of(made, product)
+            along = 0 if x[0] else 1
+            sizes = [high[along] - low[along], high[1 - along] - low[1 - along], high[2] - low[2]]
+            check("sizes of a wall", [F(values[n]) for n in ("Length", "Width", "Height")] == sizes)
+            check("net side of a wall", near(F(values["NetSideArea"]) * sizes[1] / 1000, F(values["NetVolume"])))
+        if made[product][0] == "IFCSLAB" and made[product][1][8] in (".FLOOR.", ".BASESLAB."):
+            area = sum((high[0] - low[0]) * (high[1] - low[1]) for low, high in boxes_of(made, product))
+            check("area of a deck", near(values["NetArea"], area / 10**6))
+    said = Counter(round(float(F(values["NetFloorArea"])), 4) for _, name, values in sets_of(made, "IFCELEMENTQUANTITY") if name == "Qto_SpaceBaseQuantities")
+    check("net areas of rooms", said == Counter(round(float(F(r["net"]) / 10**18), 4) for r in house["rooms"]))
+    slopes = [F(values["NetArea"]) for product, _, values in sets_of(made, "IFCELEMENTQUANTITY") if made[product][1][8] == ".ROOF."]
+    whole = [F(values["NetArea"]) for _, name, values in sets_of(made, "IFCELEMENTQUANTITY") if name == "Qto_RoofBaseQuantities"]
+    check("the roof is as large as its slabs", not whole or near(whole[0], sum(slopes)))
+
+
+def check_walls(made, house):
+    """Boxes of walls and posts are apart, and hold those of the JSON; x axes are along them; those that end at one place are connected there."""
+    walls = [n for n in of_kind(made, "IFCWALL") if spelt(made[n][1][2]) != "gable"]
+    boxes = [box_of(made, n)[:2] for n in walls + of_kind(made, "IFCCOLUMN")]
+    overlap = lambda a, b: all(min(a[1][k], b[1][k]) > max(a[0][k], b[0][k]) for k in range(3))
+    if not any(s["kind"] == "beam" for s in house["solids"]):
+        check("walls and posts are apart", not any(overlap(a, b) for i, a in enumerate(boxes) for b in boxes[:i]))
+    solids = [[F(c, 10**6) for c in s["box"]] for s in house["solids"] if s["kind"] in WALLS + ("post",)]
+    within = lambda s, b: all(b[0][k] <= s[2 * k] and s[2 * k + 1] <= b[1][k] for k in range(3))
+    check("each solid is in a wall or post", all(any(within(s, b) for b in boxes) for s in solids))
+    ends = {}
+    for wall in walls:
+        at, x, _ = placed(made, references(made[wall][1][5])[0])
+        shape = made[references(made[wall][1][6])[0]][1][2]
+        line, = (r for r in references(shape) if made[r][1][1] == "'Axis'")
+        points = points_of(made, references(made[references(made[line][1][3])[0]][1][0])[0])
+        ends[wall] = [tuple(a + p[0] * d for a, d in zip(at, x)) for p in points]
+        check("an axis is along x", all(p[1] == 0 for p in points))
+    faces = Counter(tuple(sorted((F(x, 10**6), F(y, 10**6)) for x, y in ((f["at"][0], f["at"][2]), (f["at"][1], f["at"][3])))) for f in house["faces"] if f["at"][0] == f["at"][1] or f["at"][2] == f["at"][3])
+    check("axes are those of faces", all(faces[tuple(sorted(p[:2] for p in pair))] for pair in ends.values()))
+    meets, joined = defaultdict(set), defaultdict(set)
+    for wall, pair in ends.items():
+        for place in pair:
+            meets[place].add(wall)
+    for args in (args for name, args in made.values() if name == "IFCRELCONNECTSPATHELEMENTS"):
+        first, second = references(args[5])[0], references(args[6])[0]
+        places = [ends[wall][0 if how == ".ATSTART." else 1] for wall, how in ((first, args[10]), (second, args[9]))]
+        check("walls are connected where they end", places[0] == places[1] and first != second)
+        joined[places[0]].add((first, second))
+    for place, group in meets.items():
+        reached, left = set(), [min(group)]
+        while left:
+            wall = left.pop()
+            reached.add(wall)
+            left += [b for pair in joined[place] for a, b in (pair, pair[::-1]) if a == wall and b not in reached]
+        check(f"walls that meet at {[float(c) for c in place]} are connected", reached == group and len(joined[place]) == len(group) - 1)
+    for wall, opening in related(made, "IFCRELVOIDSELEMENT", 4, 5):
+        check("an opening is turned as its wall, and as wide along x as in it", box_of(made, opening)[2:4] == box_of(made, wall)[2:4])
+
+
+def check_stairs(made, house):
+    """A flight climbs a storey, its landings included, by risers that are alike."""
+    parts = defaultdict(list)
+    for whole, part in related(made, "IFCRELAGGREGATES", 4, 5):
+        parts[whole].append(part)
+    said = {product: values for product, name, values in sets_of(made, "IFCPROPERTYSET") if name.startswith("Pset_Stair")}
+    number = lambda product, name: F(re.search(r"\(([^)]*)\)", said[product][name]).group(1))
+    levels = sorted(F(made[n][1][9]) for n in of_kind(made, "IFCBUILDINGSTOREY"))
+    for stair in of_kind(made, "IFCSTAIR"):
+        runs = [n for n in parts[stair] if made[n][0] == "IFCSTAIRFLIGHT"]
+        landings = [n for n in parts[stair] if made[n][1][8] == ".LANDING."]
+        if not parts[stair]:
+            check("a stair without a shape has its outline", made[stair][1][6] != "$" and list(said[stair]) == ["Reference"])
+            continue
+        check("a stair's shape is that of its parts", runs and made[stair][1][6] == "$")
+        turns = made[stair][1][8] in (".QUARTER_TURN_STAIR.", ".HALF_TURN_STAIR.")
+        check("stairs that turn without winders have a landing", len(landings) == turns)
+        check("runs are between landings", len(runs) <= len(landings) + 1)
+        risers = number(stair, "NumberOfRiser")
+        check("risers are those of the runs", sum(number(run, "NumberOfRiser") for run in runs) + (len(landings) + 1 - len(runs)) == risers)
+        check("and one more than treads", number(stair, "NumberOfTreads") == risers - 1)
+        check("risers make a storey", any(abs(number(stair, "RiserHeight") * risers - (b - a)) < F(1, 1000) for a, b in zip(levels, levels[1:])))
+
+
+def surface_of(made, boundary):
+    """The corners of a boundary's surface in the house, and the way out of the space."""
+    args = made[boundary][1]
+    surface = made[references(made[references(args[6])[0]][1][0])[0]][1]
+    point, axis, along = made[references(made[references(surface[0])[0]][1][0])[0]][1]
+    at, z, x = (numbers_of(made, references(a)[0]) for a in (point, axis, along))
+    y = [z[1] * x[2] - z[2] * x[1], z[2] * x[0] - z[0] * x[2], z[0] * x[1] - z[1] * x[0]]
+    space = placed(made, references(made[references(args[4])[0]][1][5])[0])[0]
+    corners = points_of(made, references(made[references(surface[1])[0]][1][0])[0])
+    return [tuple(space[k] + at[k] + u * x[k] + v * y[k] for k in range(3)) for u, v in corners], z
+
+
+def check_boundaries(made, house):
+    """Each lies on its element, and faces the space; walls, doors and windows of rooms bound them; floors are as large as rooms, but for holes."""
+    bounded, floors = defaultdict(set), Counter()
+    for number in of_kind(made, "IFCRELSPACEBOUNDARY"):
+        space, element = (references(made[number][1][i])[0] for i in (4, 5))
+        corners, out = surface_of(made, number)
+        low, high = ([f(c[k] for c in corners) for k in range(3)] for f in (min, max))
+        axis = next(k for k in range(3) if out[k])
+        bounded[space].add(element)
+        spans = list(boxes_of(made, element))
+        fills = made[element][0] in ("IFCDOOR", "IFCWINDOW")
+        on = [b for b in spans if all(b[0][k] <= low[k] and high[k] <= b[1][k] for k in range(3) if k != axis)]
+        check(f"a boundary is on its {made[element][0]}", low[axis] == high[axis] and any(fills or low[axis] == (b[0] if out[axis] > 0 else b[1])[axis] for b in on))
+        sides = [k for k in range(3) if k != axis]
+        if made[element][0] == "IFCSLAB" and out[2] < 0:
+            floors[space] += (high[sides[0]] - low[sides[0]]) * (high[sides[1]] - low[sides[1]])
+    check("all rooms are bounded", set(bounded) == set(of_kind(made, "IFCSPACE")))
+    net = {product: F(values["NetFloorArea"]) * 10**6 for product, name, values in sets_of(made, "IFCELEMENTQUANTITY") if name == "Qto_SpaceBaseQuantities"}
+    check("floors are not larger than their rooms", all(floors[space] <= net[space] + 1 for space in net))
+    holes = any(f["kind"] == "stair" for f in house["faces"]) or any(s["kind"] == "flight" for s in house["solids"]) or house.get("wedges")
+    check("and as large", holes or all(abs(floors[space] - net[space]) < 1 for space in net))
+    seen = {element for elements in bounded.values() for element in elements}
+    check("doors and windows bound rooms", seen >= set(of_kind(made, "IFCDOOR") + of_kind(made, "IFCWINDOW")))
+
+
+def read_again(reader, path, made, unit):
+    """By another program: as many products of each kind, and the same volumes to a millionth, which it says in the unit of the file."""
     lines = subprocess.run([reader, path], capture_output=True, text=True, check=True).stdout.splitlines()
-    read = {kind.upper(): (int(number), F(volume)) for kind, number, volume in map(str.split, lines)}
+    found = {kind.upper(): (int(number), F(volume) * unit**3) for kind, number, volume in map(str.split, lines)}
     for name in PRODUCTS:
         own = [n for n, (entity, _) in made.items() if entity == name]
-        number, volume = read.get(name, (0, F(0)))
+        number, volume = found.get(name, (0, F(0)))
         check(f"{reader}: {number} {name}, not {len(own)}", number == len(own))
         wanted = F(0) if name in ("IFCSITE", "IFCBUILDING", "IFCBUILDINGSTOREY") else sum(volume_of(made, n) for n in own)
         check(f"{reader}: {name} hold {float(volume)}, not {float(wanted)}", abs(volume - wanted) <= wanted / 10**6 + F(1, 10**3))
@@ -265,7 +264,8 @@ def layers_of(made, part, usage):
     """Where each layer of a wall or slab lies in the house: its name, the axis across it, and its two sides, in millimetres. IFC has them along the
     y axis of a wall's placement, or upwards in a slab, from an offset on, in the direction that is said."""
     layer_set, along, sense, offset, _ = made[usage][1]
-    low, high, x, y, at = box_of(made, part)
+    low, high = ([pick(side[k] for side in sides) for k in range(3)] for pick, sides in zip((min, max), zip(*boxes_of(made, part))))
+    at, _, y = placed(made, references(made[part][1][5])[0])
     sign, place = (1 if sense == ".POSITIVE." else -1), F(offset)
     axis, step = (2, 1) if along == ".AXIS3." else (0, y[0]) if y[0] else (1, y[1])
     for layer in references(made[references(layer_set)[0]][1][0]):
@@ -284,16 +284,17 @@ def axis_of(solid):
 
 def check_layers(made, house):
     """Those of each wall and slab are those of the solids in the JSON; posts, roofs and walls below these have theirs as a set alone."""
-    wanted, alone, walls = Counter(), Counter(), set()
+    wanted, alone, parts, free = Counter(), Counter(), set(), free_posts(house)  # parts: a wall, or the decks of a storey
     for solid in (s for s in house["solids"] if "layers" in s):
         names, axis = tuple(layer["name"] for layer in solid["layers"]), axis_of(solid)
         wall = solid["kind"] in ("outside", "party", "partition")
         if solid["kind"] == "post":
-            alone["IFCCOLUMN", names] += 1
-        elif not wall or solid["of"] not in walls:
+            if solid["box"] in free:
+                alone["IFCCOLUMN", names] += 1
+        elif (key := (wall, solid["of"] if wall else solid["kind"], None if wall else solid["of"] if solid["kind"] == "deck" else house["cells"][solid["of"]]["storey"])) not in parts:
             sides = (tuple(F(n, 10**6) for n in layer["box"][2 * axis:2 * axis + 2]) for layer in solid["layers"])
             wanted[tuple((name, axis, side) for name, side in zip(names, sides))] += 1
-        walls |= {solid["of"]} if wall else set()
+            parts.add(key)
     found, sets, below = Counter(), Counter(), Counter()
     slabs = {(r["of"], house_prisms.plane_of(house_prisms.corners_of(r), 3), tuple(l["name"] for l in r["layers"])) for r in house["roofs"] if r["kind"] == "roof" and "layers" in r}
     alone += Counter(("IFCSLAB", names) for _, _, names in slabs)
@@ -316,36 +317,6 @@ def check_layers(made, house):
 
 
 # ---- where doors hang
-
-
-def box_of(made, product):
-    """The box of a product in the house: its two corners, and the directions of its x and y axes. Its shape is one extruded rectangle."""
-    args = made[product][1]
-    solid = made[references(made[references(made[references(args[6])[0]][1][2])[0]][1][3])[0]][1]
-    profile = made[references(solid[0])[0]][1]
-    middle = numbers_of(made, references(made[references(profile[2])[0]][1][0])[0])
-    wide, deep, high = F(profile[3]), F(profile[4]), F(solid[3])
-    low = [middle[0] - wide / 2, middle[1] - deep / 2, F(0)]
-    at, x, y = placed(made, references(args[5])[0])
-    ends = [[at[k] + (low[0] + i * wide) * x[k] + (low[1] + i * deep) * y[k] + (k == 2) * (low[2] + i * high) for k in range(3)] for i in (0, 1)]
-    return [min(a, b) for a, b in zip(*ends)], [max(a, b) for a, b in zip(*ends)], x, y, at
-
-
-def numbers_of(made, instance):
-    return [F(n) for n in made[instance][1][0].strip("()").split(",")]
-
-
-def placed(made, placement):
-    """The origin, x and y of a placement in the house; z is up."""
-    within, axes = made[placement][1]
-    point, _, along = made[references(axes)[0]][1]
-    at, x = numbers_of(made, references(point)[0]), numbers_of(made, references(along)[0]) if along != "$" else [F(1), F(0), F(0)]
-    y = [-x[1], x[0], F(0)]
-    if within == "$":
-        return at, x, y
-    origin, u, v = placed(made, references(within)[0])
-    turned = lambda d: [d[0] * u[k] + d[1] * v[k] + (k == 2) * d[2] for k in range(3)]
-    return [o + t for o, t in zip(origin, turned(at))], turned(x), turned(y)
 
 
 def leaves_of(made, door, opening):
@@ -610,10 +581,13 @@ parser.add_argument("reader", nargs="?")
 parser.add_argument("--title")
 options = parser.parse_args()
 folder = options.folder
-made = read_ifc(folder + "/house.ifc")
-check_ifc(made)
+written = read(folder + "/house.ifc")
+check_file(written)
+made = in_millimetres(written)
 house = json.load(open(folder + "/house.json"))
 compare(made, house)
+for part in (check_quantities, check_walls, check_stairs, check_boundaries):
+    part(made, house)
 check_parts(folder + "/house.parts.csv", house)
 groups = read_dxf(folder + "/house.dxf")
 check_dxf(folder + "/house.dxf", groups, house)
@@ -623,5 +597,5 @@ title = [spelt(args[2]) for name, args in made.values() if name in ("IFCPROJECT"
 check(f"the house is called {title[0]}", options.title is None or title == [options.title] * 2)
 validate(folder + "/house.ifc")
 if options.reader:
-    read_again(options.reader, folder + "/house.ifc", made)
-print("\n".join(failures[:20]) or "fine")
+    read_again(options.reader, folder + "/house.ifc", made, F("304.8") if is_in_feet(written) else F(1))
+print("\n".join(findings[:20]) or "fine")

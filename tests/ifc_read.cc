@@ -1,6 +1,6 @@
 // Reads a building model by IfcPlusPlus, and says how many of each kind of product there are, and what they hold: ifc_read FILE.ifc
 //
-// A line for each kind: `IfcWall 12 34567890.000`, the volume in cubic millimetres, of all solids of their shapes.
+// A line for each kind: `IfcWall 12 34567890.000000000`, the volume in cubes of the file's unit, of all solids of their shapes.
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -75,6 +75,6 @@ int main(int, char **words)
             kind.second += volume_of(product);
         }
     for (const auto &kind : kinds)
-        std::printf("%s %d %.3f\n", kind.first.c_str(), kind.second.first, kind.second.second);
+        std::printf("%s %d %.9f\n", kind.first.c_str(), kind.second.first, kind.second.second);
     return kinds.empty();
 }

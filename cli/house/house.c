@@ -250,7 +250,7 @@ const tn_command tn_command_house = {
         "with --measures below what the file's measures are worth on it. "
         "JSON has everything, in whole nanometres, and the measures in feet or metres; CSV has the rooms with their areas; OBJ, PLY and GLB have the "
         "house as one closed mesh in metres, in groups by what its parts are. IFC has it as a building model, in "
-        "millimetres. SVG, PDF, PNG and DXF are drawings to scale: "
+        "millimetres or, if the form is, in feet. SVG, PDF, PNG and DXF are drawings to scale: "
         "a sheet of all, or those that --view names.",
     .example = "$ tartan house cottage \"14' none room:14' none ; 1 1 gable(9:12) 1 ; living\"\n"
                "14' none room:14' none ; 1 1 gable(9:12) 1 ; living ; window window ; settle.back",

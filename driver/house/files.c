@@ -132,6 +132,17 @@ static tn_status draw(const tn_house_filed *filed, tn_house_drawing *drawing, tn
     return status;
 }
 
+/* Identifiers do not depend on which house of a library it is. */
+static tn_status write_model(const tn_house_filed *filed, FILE *out, tn_error *error)
+{
+    const tn_house_form *form = filed->house->form;
+    const char *project = filed->says.project, *form_name = tn_text(form->module, form->record->name);
+    const tn_ifc_said said = {.name = title_of(filed),
+                              .project = project ? project : title_of(filed),
+                              .seed = project ? project : form_name};
+    return tn_house_write_ifc(filed->house, filed->solids, &said, out, error);
+}
+
 /* A sheet says the house's line; one drawing alone has no room for it. */
 static tn_status write_picture(const tn_house_filed *filed, tn_house_file kind, FILE *out, tn_error *error)
 {
@@ -151,7 +162,7 @@ tn_status tn_house_file_write(const tn_house_filed *filed, tn_house_file kind, F
     case TN_HOUSE_AS_GLB:
         return write_mesh(filed, kind, out, error);
     case TN_HOUSE_AS_IFC:
-        return tn_house_write_ifc(filed->house, filed->solids, title_of(filed), out, error);
+        return write_model(filed, out, error);
     case TN_HOUSE_AS_DXF:
     case TN_HOUSE_AS_SVG:
     case TN_HOUSE_AS_PDF:

@@ -45,7 +45,7 @@ typedef struct tn_house_filed {
     const tn_solids *solids;
     const char *title; /* of sheets and of the building model; NULL: what the form says of itself */
     tn_views views;
-    tn_drawing_says says; /* of drawings */
+    tn_drawing_says says; /* of drawings; the project of the building model, too */
     uint32_t scale, dpi; /* of drawings, 1:scale; 0: as it suits, 150 */
     tn_profile profile;  /* of drawings: whose names the layers of a DXF have */
     tn_watch *watch;     /* or NULL */

@@ -63,6 +63,26 @@ cat "$scratch/letters/house.ifc" >>"$scratch/models"
 for operation in SINGLE_SWING_LEFT SINGLE_SWING_RIGHT DOUBLE_DOOR_SINGLE_SWING; do
     grep -q "IFCDOOR.*$operation" "$scratch/models" || fail "no door is $operation"
 done
+# The rules that the models are held to find what is wrong with one.
+for house in walk doors guarded climbed; do
+    is "faults in the model of $house" "$($python "$here/../ifc_file.py" --faults "$scratch/$house/house.ifc")" fine
+done
+
+# In the next version of a house all parts keep their identifiers but those that are gone: here a window became a wall.
+made "$files/cabins.plan" "${hut/window/wall}" edited
+window='IFCOPENINGELEMENT IFCRELFILLSELEMENT IFCRELSPACEBOUNDARY IFCRELVOIDSELEMENT IFCWINDOW'
+types='IFCELEMENTQUANTITY IFCPROPERTYSET IFCRELDEFINESBYPROPERTIES IFCRELDEFINESBYTYPE IFCWINDOWTYPE'
+is 'a window less' "$($python "$here/../ifc_file.py" --kept "$scratch/hut/house.ifc" "$scratch/edited/house.ifc" | tr ' ' '\n' | sort -u)" \
+    "$(printf '%s\n' $window $types IFCRELASSOCIATESMATERIAL | sort)"
+is 'and nothing more' "$($python "$here/../ifc_file.py" --kept "$scratch/edited/house.ifc" "$scratch/hut/house.ifc")" ''
+two="14' room:14' porch:5' | 14' room:14' porch:5' ; 2 shed(back,4:12) 1 flat ; kitchen bedroom porch-deck | living bedroom porch-deck"
+two="$two ; window window door wall window wall wall wall window window wall window window ; counter.back bed.front.m bed.front"
+made "$files/cabins.plan" "$two" two
+made "$files/cabins.plan" "${two/%window ; counter*/wall ; counter.back bed.front.m bed.front}" fewer
+is 'one of several windows less' "$($python "$here/../ifc_file.py" --kept "$scratch/two/house.ifc" "$scratch/fewer/house.ifc")" "$window"
+made "$files/cabins.plan" "$two" named --project 'another house'
+is 'another project has other identifiers' "$($python "$here/../ifc_file.py" --kept "$scratch/two/house.ifc" "$scratch/named/house.ifc" | wc -w)" \
+    "$(grep -oE "IFC[A-Z]+\('[0-3][0-9A-Za-z_\$]{21}'" "$scratch/two/house.ifc" | wc -l)"
 cmp "$scratch/walk/house.ifc" "$scratch/again/house.ifc" || fail 'two models of one house differ'
 cmp "$scratch/walk/house.dxf" "$scratch/again/house.dxf" || fail 'two drawings of one house differ'
 is 'a wrong view leaves no drawing' "$("$TARTAN" house "$files/cabins.plan" "$hut" --view plan:attic -o "$scratch/none.dxf" 2>/dev/null || ls "$scratch/none.dxf" 2>&1 | wc -l)" 1

@@ -16,11 +16,19 @@ tn_status tn_house_mesh(const tn_house *house, const tn_solids *solids, tn_mesh 
 #define TN_HOUSE_GROUPS_MAX (TN_SOLID_COUNT + TN_MATERIALS_MAX)
 void tn_house_mesh_colours(const tn_house_form *form, unsigned char colours[TN_HOUSE_GROUPS_MAX][3]);
 
-/* IFC4 as STEP text, in millimetres: storeys, spaces (rooms), walls with openings, doors and windows that fill these,
- * posts as columns, decks as slabs, roofs, stairs and furniture, with materials and quantities. `name` is the house's.
- * Identifiers are hashes of the name, the house's line and the part, so that the same house has the same bytes.
- * TN_MEMORY. */
-tn_status tn_house_write_ifc(const tn_house *house, const tn_solids *solids, const char *name, FILE *out,
+/* What a building model says besides the house. name: what the house is called. seed: what identifiers are made of,
+ * besides the part's place in the house, so that a part keeps its own in the next version of the house. north: as
+ * drawings have it, degrees clockwise from the back of the house. What may be NULL is left out then. */
+typedef struct tn_ifc_said {
+    const char *name, *project, *seed;
+    const char *date, *author;                   /* or NULL; date: by ISO 8601, with the time of day */
+    const double *north, *latitude, *longitude; /* or NULL; degrees */
+} tn_ifc_said;
+
+/* IFC4 as STEP text, in millimetres, or in feet if the form is: storeys, spaces (rooms), walls with openings, doors and
+ * windows that fill these, posts as columns, decks as slabs, a roof, stairs and furniture, with types, properties,
+ * materials and quantities. The same house has the same bytes. TN_MEMORY. */
+tn_status tn_house_write_ifc(const tn_house *house, const tn_solids *solids, const tn_ifc_said *said, FILE *out,
                              tn_error *error);
 
 #endif

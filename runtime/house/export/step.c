@@ -16,43 +16,158 @@
 void tn_stepfile_clear(tn_stepfile *step)
 {
     free(step->text.data);
+    free(step->ids.taken);
     *step = (tn_stepfile){0};
+}
+
+/* What an instance begins with, and most have room in. */
+enum { INSTANCE_ROOM = 400 };
+
+static void put_number(tn_buffer *text, const char *before, unsigned number)
+{
+    char digits[12];
+    size_t size = sizeof digits, length = strlen(before);
+    do
+        digits[--size] = (char)('0' + number % 10);
+    while (number /= 10);
+    tn_buffer_append(text, before, length);
+    tn_buffer_append(text, digits + size, sizeof digits - size);
 }
 
 unsigned tn_stepfile_add(tn_stepfile *step, const char *format, ...)
 {
-    va_list args;
-    char *instance = NULL;
+    va_list args, again;
+    tn_buffer *text = &step->text;
+    put_number(text, "#", ++step->last);
+    tn_buffer_append(text, "=", 1);
+    if (!tn_buffer_reserve(text, INSTANCE_ROOM))
+        return step->last;
     va_start(args, format);
-    int size = vasprintf(&instance, format, args);
+    va_copy(again, args);
+    int size = vsnprintf(text->data + text->size, INSTANCE_ROOM, format, args);
+    if (size >= INSTANCE_ROOM && tn_buffer_reserve(text, (size_t)size))
+        vsnprintf(text->data + text->size, (size_t)size + 1, format, again);
+    va_end(again);
     va_end(args);
-    if (size < 0)
-        step->text.failed = true;
-    else
-        tn_buffer_printf(&step->text, "#%u=%s;\n", ++step->last, instance);
-    if (size >= 0)
-        free(instance);
+    text->size += size >= 0 && !text->failed ? (size_t)size : 0;
+    text->failed |= size < 0;
+    tn_buffer_append(text, ";\n", 2);
     return step->last;
 }
 
-tn_stepfile_number tn_stepfile_mm(double nanometres)
+/* ---- numbers */
+
+#define FOOT_NM 304800000.0
+#define SQUARE_FOOT_M2 0.09290304
+#define CUBIC_FOOT_M3 0.028316846592
+
+/* `number` is in units of the last of the digits after the point. */
+static tn_stepfile_number decimal(double number, int digits)
 {
-    tn_stepfile_number number;
-    snprintf(number.text, sizeof number.text, "%.9f", nanometres / 1e6);
-    size_t size = strlen(number.text);
-    while (number.text[size - 1] == '0')
-        number.text[--size] = '\0';
-    return number;
+    tn_stepfile_number to;
+    char written[40];
+    long long rounded = llround(number);
+    unsigned long long left = rounded < 0 ? 0ULL - (unsigned long long)rounded : (unsigned long long)rounded;
+    size_t at = sizeof written, end;
+    for (int i = 0; i < digits || left; i++) {
+        if (i == digits)
+            written[--at] = '.';
+        written[--at] = (char)('0' + left % 10);
+        left /= 10;
+    }
+    if (at + (size_t)digits == sizeof written) { /* below 1 */
+        written[--at] = '.';
+        written[--at] = '0';
+    }
+    for (end = sizeof written; written[end - 1] == '0';)
+        end--;
+    size_t size = end - at, sign = rounded < 0;
+    to.text[0] = '-';
+    memcpy(to.text + sign, written + at, size);
+    to.text[sign + size] = '\0';
+    return to;
 }
 
+tn_stepfile_number tn_stepfile_real(double number, int digits)
+{
+    double scale = 1;
+    for (int i = 0; i < digits; i++)
+        scale *= 10;
+    return decimal(number * scale, digits);
+}
+
+tn_stepfile_number tn_stepfile_length(const tn_stepfile *step, double nanometres)
+{
+    return step->feet ? decimal(nanometres * (1e12 / FOOT_NM), 12) : decimal(nanometres * 1e3, 9);
+}
+
+tn_stepfile_number tn_stepfile_area(const tn_stepfile *step, double square_metres)
+{
+    return tn_stepfile_real(step->feet ? square_metres / SQUARE_FOOT_M2 : square_metres, 6);
+}
+
+tn_stepfile_number tn_stepfile_volume(const tn_stepfile *step, double cubic_metres)
+{
+    return tn_stepfile_real(step->feet ? cubic_metres / CUBIC_FOOT_M3 : cubic_metres, 9);
+}
+
+/* ---- identifiers */
+
+/* Where a hash is, or would be, in the table. */
+static size_t slot_of(const tn_stepfile_ids *ids, uint64_t hash)
+{
+    size_t at = (size_t)hash & (ids->room - 1);
+    while (ids->taken[at] != 0 && ids->taken[at] != hash)
+        at = (at + 1) & (ids->room - 1);
+    return at;
+}
+
+static bool grow_ids(tn_stepfile_ids *ids)
+{
+    tn_stepfile_ids wider = {.room = ids->room ? 2 * ids->room : 1024, .count = ids->count};
+    wider.taken = calloc(wider.room, sizeof *wider.taken);
+    if (!wider.taken)
+        return false;
+    for (size_t i = 0; i < ids->room; i++)
+        if (ids->taken[i])
+            wider.taken[slot_of(&wider, ids->taken[i])] = ids->taken[i];
+    free(ids->taken);
+    *ids = wider;
+    return true;
+}
+
+/* False: it was taken before. */
+static bool take_id(tn_stepfile *step, uint64_t hash)
+{
+    tn_stepfile_ids *ids = &step->ids;
+    if (2 * ids->count >= ids->room && !grow_ids(ids)) {
+        step->text.failed = true;
+        return true;
+    }
+    size_t at = slot_of(ids, hash);
+    if (ids->taken[at])
+        return false;
+    ids->taken[at] = hash;
+    ids->count++;
+    return true;
+}
+
+enum { KEY_ROOM = 1200 };
+
 /* The alphabet and the order of bits are those of buildingSMART's compressed GUIDs. */
-tn_stepfile_id tn_stepfile_guid(const tn_stepfile *step, const char *kind, unsigned number)
+tn_stepfile_id tn_stepfile_guid(tn_stepfile *step, const char *key, ...)
 {
     static const char digits[] = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_$";
-    char part[160];
+    char part[KEY_ROOM];
     tn_stepfile_id id;
-    int size = snprintf(part, sizeof part, "%s %s %u", step->seed, kind, number);
-    XXH128_hash_t hash = XXH3_128bits(part, size < (int)sizeof part ? (size_t)size : sizeof part - 1);
+    va_list args;
+    va_start(args, key);
+    int written = vsnprintf(part, sizeof part, key, args);
+    va_end(args);
+    size_t size = written < KEY_ROOM ? (size_t)(written < 0 ? 0 : written) : sizeof part - 1;
+    XXH128_hash_t hash = XXH3_128bits_withSeed(part, size, step->seed);
+    for (uint64_t number = 1; !take_id(step, hash.low64 | 1); number++)
+        hash = XXH3_128bits_withSeed(part, size, step->seed + number);
     uint64_t high = hash.high64, low = hash.low64;
     for (int i = 21; i >= 0; i--) {
         id.text[i] = digits[low & 63];
@@ -62,6 +177,8 @@ tn_stepfile_id tn_stepfile_guid(const tn_stepfile *step, const char *kind, unsig
     id.text[22] = '\0';
     return id;
 }
+
+/* ---- texts */
 
 /* A text as it is encoded (ISO 10303-21, 6.4.3). open: the digits of a character in the run of hexadecimal ones at
  * hand, 0 outside of one. */
@@ -132,7 +249,7 @@ bool tn_stepfile_put_text(tn_buffer *to, const char *text)
 
 void tn_stepfile_list_add(tn_stepfile_list *list, unsigned instance)
 {
-    tn_buffer_printf(&list->text, "%s#%u", list->count++ ? "," : "(", instance);
+    put_number(&list->text, list->count++ ? ",#" : "(#", instance);
 }
 
 const char *tn_stepfile_list_text(tn_stepfile_list *list)
@@ -150,11 +267,17 @@ void tn_stepfile_list_clear(tn_stepfile_list *list)
 
 /* ---- shapes */
 
+static unsigned put_point_at(tn_stepfile *step, double x, double y, double z)
+{
+    return tn_stepfile_add(step, "IFCCARTESIANPOINT((%s,%s,%s))", tn_stepfile_length(step, x).text,
+                           tn_stepfile_length(step, y).text, tn_stepfile_length(step, z).text);
+}
+
 unsigned tn_stepfile_placement(tn_stepfile *step, unsigned within, double x, double y, double z)
 {
-    unsigned point = tn_stepfile_add(step, "IFCCARTESIANPOINT((%s,%s,%s))", tn_stepfile_mm(x).text,
-                                     tn_stepfile_mm(y).text, tn_stepfile_mm(z).text);
-    unsigned axes = tn_stepfile_add(step, "IFCAXIS2PLACEMENT3D(#%u,$,$)", point);
+    unsigned axes = step->axes;
+    if (x != 0 || y != 0 || z != 0)
+        axes = tn_stepfile_add(step, "IFCAXIS2PLACEMENT3D(#%u,$,$)", put_point_at(step, x, y, z));
     if (within == 0)
         return tn_stepfile_add(step, "IFCLOCALPLACEMENT($,#%u)", axes);
     return tn_stepfile_add(step, "IFCLOCALPLACEMENT(#%u,#%u)", within, axes);
@@ -162,45 +285,58 @@ unsigned tn_stepfile_placement(tn_stepfile *step, unsigned within, double x, dou
 
 unsigned tn_stepfile_turned(tn_stepfile *step, unsigned within, double x, double y, double z, int turns)
 {
-    static const char *const directions[] = {"1.,0.", "0.,1.", "-1.,0.", "0.,-1."};
-    unsigned point = tn_stepfile_add(step, "IFCCARTESIANPOINT((%s,%s,%s))", tn_stepfile_mm(x).text,
-                                     tn_stepfile_mm(y).text, tn_stepfile_mm(z).text);
-    unsigned along = tn_stepfile_add(step, "IFCDIRECTION((%s,0.))", directions[turns]);
-    unsigned axes = tn_stepfile_add(step, "IFCAXIS2PLACEMENT3D(#%u,#%u,#%u)", point, step->z, along);
+    unsigned point = put_point_at(step, x, y, z);
+    unsigned axes = turns == 0 ? tn_stepfile_add(step, "IFCAXIS2PLACEMENT3D(#%u,$,$)", point)
+                               : tn_stepfile_add(step, "IFCAXIS2PLACEMENT3D(#%u,#%u,#%u)", point, step->z,
+                                                 step->along[turns]);
     return tn_stepfile_add(step, "IFCLOCALPLACEMENT(#%u,#%u)", within, axes);
+}
+
+static unsigned styled(tn_stepfile *step, unsigned solid)
+{
+    if (step->style)
+        tn_stepfile_add(step, "IFCSTYLEDITEM(#%u,(#%u),$)", solid, step->style);
+    return solid;
 }
 
 unsigned tn_stepfile_solid(tn_stepfile *step, const double low[3], const double high[3])
 {
-    unsigned middle = tn_stepfile_add(step, "IFCCARTESIANPOINT((%s,%s))", tn_stepfile_mm((low[0] + high[0]) / 2).text,
-                                      tn_stepfile_mm((low[1] + high[1]) / 2).text);
+    unsigned middle =
+        tn_stepfile_add(step, "IFCCARTESIANPOINT((%s,%s))", tn_stepfile_length(step, (low[0] + high[0]) / 2).text,
+                        tn_stepfile_length(step, (low[1] + high[1]) / 2).text);
     unsigned flat = tn_stepfile_add(step, "IFCAXIS2PLACEMENT2D(#%u,$)", middle);
-    unsigned profile = tn_stepfile_add(step, "IFCRECTANGLEPROFILEDEF(.AREA.,$,#%u,%s,%s)", flat,
-                                       tn_stepfile_mm(high[0] - low[0]).text, tn_stepfile_mm(high[1] - low[1]).text);
+    unsigned profile =
+        tn_stepfile_add(step, "IFCRECTANGLEPROFILEDEF(.AREA.,$,#%u,%s,%s)", flat,
+                        tn_stepfile_length(step, high[0] - low[0]).text, tn_stepfile_length(step, high[1] - low[1]).text);
     unsigned axes = step->axes;
-    if (low[2] != 0) {
-        unsigned foot = tn_stepfile_add(step, "IFCCARTESIANPOINT((0.,0.,%s))", tn_stepfile_mm(low[2]).text);
-        axes = tn_stepfile_add(step, "IFCAXIS2PLACEMENT3D(#%u,$,$)", foot);
-    }
-    return tn_stepfile_add(step, "IFCEXTRUDEDAREASOLID(#%u,#%u,#%u,%s)", profile, axes, step->z,
-                           tn_stepfile_mm(high[2] - low[2]).text);
+    if (low[2] != 0)
+        axes = tn_stepfile_add(step, "IFCAXIS2PLACEMENT3D(#%u,$,$)", put_point_at(step, 0, 0, low[2]));
+    return styled(step, tn_stepfile_add(step, "IFCEXTRUDEDAREASOLID(#%u,#%u,#%u,%s)", profile, axes, step->z,
+                                        tn_stepfile_length(step, high[2] - low[2]).text));
 }
 
-static unsigned put_shape(tn_stepfile *step, const char *kind, const char *solids)
+unsigned tn_stepfile_curve(tn_stepfile *step, const double (*points)[2], size_t count)
 {
-    unsigned shape = tn_stepfile_add(step, "IFCSHAPEREPRESENTATION(#%u,'Body','%s',%s)", step->context, kind,
-                                     solids ? solids : "()");
-    return tn_stepfile_add(step, "IFCPRODUCTDEFINITIONSHAPE($,$,(#%u))", shape);
+    tn_buffer text = {0};
+    for (size_t i = 0; i < count; i++)
+        tn_buffer_printf(&text, "%s(%s,%s)", i ? "," : "", tn_stepfile_length(step, points[i][0]).text,
+                         tn_stepfile_length(step, points[i][1]).text);
+    unsigned list = tn_stepfile_add(step, "IFCCARTESIANPOINTLIST2D((%s))", text.data ? text.data : "");
+    step->text.failed |= text.failed;
+    free(text.data);
+    return tn_stepfile_add(step, "IFCINDEXEDPOLYCURVE(#%u,$,.F.)", list);
 }
 
-unsigned tn_stepfile_shape(tn_stepfile *step, const char *solids)
+unsigned tn_stepfile_body(tn_stepfile *step, const char *kind, const char *solids)
 {
-    return put_shape(step, "SweptSolid", solids);
+    return tn_stepfile_add(step, "IFCSHAPEREPRESENTATION(#%u,'Body','%s',%s)", step->context, kind,
+                           solids ? solids : "()");
 }
 
-unsigned tn_stepfile_faceted(tn_stepfile *step, const char *solids)
+unsigned tn_stepfile_shape(tn_stepfile *step, unsigned body, unsigned other)
 {
-    return put_shape(step, "Tessellation", solids);
+    return other ? tn_stepfile_add(step, "IFCPRODUCTDEFINITIONSHAPE($,$,(#%u,#%u))", other, body)
+                 : tn_stepfile_add(step, "IFCPRODUCTDEFINITIONSHAPE($,$,(#%u))", body);
 }
 
 /* The points of a prism, and the number of each among them: where it is not solid, both of a corner are one. */
@@ -209,10 +345,10 @@ typedef struct prism_points {
     tn_buffer text;
 } prism_points;
 
-static unsigned put_point(prism_points *points, const tn_block_corner *corner, double z)
+static unsigned put_point(const tn_stepfile *step, prism_points *points, const tn_block_corner *corner, double z)
 {
-    tn_buffer_printf(&points->text, "%s(%s,%s,%s)", points->count ? "," : "", tn_stepfile_mm(corner->x).text,
-                     tn_stepfile_mm(corner->y).text, tn_stepfile_mm(z).text);
+    tn_buffer_printf(&points->text, "%s(%s,%s,%s)", points->count ? "," : "", tn_stepfile_length(step, corner->x).text,
+                     tn_stepfile_length(step, corner->y).text, tn_stepfile_length(step, z).text);
     return ++points->count;
 }
 
@@ -237,8 +373,8 @@ unsigned tn_stepfile_prism(tn_stepfile *step, const tn_block_corner *corners, si
     unsigned bottom[TN_FACET_CORNERS] = {0};
     for (size_t i = 0; i < count; i++) {
         const tn_block_corner *corner = &corners[i];
-        points.low[i] = put_point(&points, corner, corner->low);
-        points.high[i] = corner->high > corner->low ? put_point(&points, corner, corner->high) : points.low[i];
+        points.low[i] = put_point(step, &points, corner, corner->low);
+        points.high[i] = corner->high > corner->low ? put_point(step, &points, corner, corner->high) : points.low[i];
         bottom[count - 1 - i] = points.low[i];
     }
     unsigned at = tn_stepfile_add(step, "IFCCARTESIANPOINTLIST3D((%s))", points.text.data ? points.text.data : "");
@@ -254,13 +390,5 @@ unsigned tn_stepfile_prism(tn_stepfile *step, const tn_block_corner *corners, si
     step->text.failed |= points.text.failed || faces.text.failed;
     free(points.text.data);
     tn_stepfile_list_clear(&faces);
-    return solid;
-}
-
-unsigned tn_stepfile_box(tn_stepfile *step, double wide, double deep, double high)
-{
-    char list[16];
-    const double low[3] = {0, 0, 0}, top[3] = {wide, deep, high};
-    snprintf(list, sizeof list, "(#%u)", tn_stepfile_solid(step, low, top));
-    return tn_stepfile_shape(step, list);
+    return styled(step, solid);
 }

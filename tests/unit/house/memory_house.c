@@ -348,7 +348,8 @@ static tn_status find_bare(tn_error *error)
 
 static tn_status write_ifc(tn_error *error)
 {
-    return tn_house_write_ifc(&house, &solids, "a hut", sink, error);
+    static const tn_ifc_said said = {.name = "a hut", .project = "huts", .seed = "huts"};
+    return tn_house_write_ifc(&house, &solids, &said, sink, error);
 }
 
 static tn_status draw_dxf(tn_error *error)
