@@ -289,7 +289,7 @@ static tn_status note_found(sheet *s)
 
 static tn_status draw_library(sheet *s)
 {
-    const tn_taker taker = {begins, takes, s}, *before = s->session->taker;
+    const tn_taker taker = {.begins = begins, .takes = takes, .context = s}, *before = s->session->taker;
     tn_reply found;
     s->session->taker = &taker;
     tn_status status = s->request->has_best ? find_best(s, &found) : find_sample(s, &found);

@@ -93,12 +93,15 @@ static bool is_wanted(const enumeration *e, const tn_tray *trays, uint32_t lengt
     return !e->request->mirror || tn_library_mirror_first(e->ready->library, trays, length);
 }
 
-static tn_status give_plans(enumeration *e, tn_finds *finds, tn_cursor *cursor, tn_error *error)
+static tn_status give_each(enumeration *e, tn_finds *finds, tn_error *error)
 {
     tn_watch *watch = e->session->opened->module->watch;
     const tn_tray *trays;
     uint32_t length;
-    tn_status status = TN_OK;
+    tn_cursor *cursor;
+    tn_status status = tn_cursor_new(e->ready->library, e->rank, e->to, &cursor, error);
+    if (status != TN_OK)
+        return status;
     for (size_t seen = 1; status == TN_OK && !is_done(e) && tn_cursor_next(cursor, &trays, &length); seen++) {
         if (is_wanted(e, trays, length)) {
             status = tn_finds_give(finds, &(tn_found_one){.rank = e->rank, .trays = trays, .length = length}, error);
@@ -108,6 +111,25 @@ static tn_status give_plans(enumeration *e, tn_finds *finds, tn_cursor *cursor, 
         if (status == TN_OK && tn_watch_stopped_at(watch, seen))
             status = tn_fail_stopped(watch, error);
     }
+    tn_cursor_free(cursor);
+    return status;
+}
+
+/* The same by a taker who lists plans: as many ranks as are wanted. */
+static tn_status list_plans(enumeration *e, tn_finds *finds, tn_error *error)
+{
+    uint64_t wanted = e->limit > e->given ? e->limit - e->given : 0;
+    mpz_t end;
+    mpz_init_set_ui(end, (unsigned long)(wanted >> 32));
+    mpz_mul_2exp(end, end, 32);
+    mpz_add_ui(end, end, (unsigned long)(wanted & UINT32_MAX));
+    mpz_add(end, end, e->rank);
+    if (mpz_cmp(end, e->to) > 0)
+        mpz_set(end, e->to);
+    tn_status status = tn_finds_list(finds, e->rank, end, tn_asked_threads(&e->request->subject), error);
+    if (status == TN_OK)
+        mpz_set(e->rank, end);
+    mpz_clear(end);
     return status;
 }
 
@@ -121,7 +143,6 @@ static void tell_next(const enumeration *e, tn_reply *answer)
 
 static tn_status enumerate(enumeration *e, tn_reply *answer)
 {
-    tn_cursor *cursor;
     tn_error error;
     tn_found_of of = {.plans = e->ready, .from = e->rank, .to = e->to, .ways = e->request->ways};
     tn_finds finds = {.session = e->session, .of = &of, .answer = answer, .lines = e->request->lines};
@@ -129,11 +150,8 @@ static tn_status enumerate(enumeration *e, tn_reply *answer)
     if (status != TN_OK || finds.ended)
         return tn_finds_end(&finds, status, &error);
     e->given = of.before;
-    status = tn_cursor_new(e->ready->library, e->rank, e->to, &cursor, &error);
-    if (status == TN_OK) {
-        status = give_plans(e, &finds, cursor, &error);
-        tn_cursor_free(cursor);
-    }
+    bool lists = tn_finds_lists(&finds) && !e->request->mirror;
+    status = lists ? list_plans(e, &finds, &error) : give_each(e, &finds, &error);
     if (status == TN_OK)
         tell_next(e, answer);
     return tn_finds_end(&finds, status, &error);

@@ -189,6 +189,17 @@ tn_status tn_finds_give(tn_finds *finds, const tn_found_one *found, tn_error *er
     return finds->ended ? tn_fail(error, TN_STOPPED, TN_CODE_NONE, "enough was found") : TN_OK;
 }
 
+bool tn_finds_lists(const tn_finds *finds)
+{
+    return finds->session->taker && finds->session->taker->lists && !finds->has_ways;
+}
+
+tn_status tn_finds_list(tn_finds *finds, mpz_srcptr from, mpz_srcptr to, unsigned threads, tn_error *error)
+{
+    const tn_taker *taker = finds->session->taker;
+    return taker->lists(taker->context, finds->of->plans->library, from, to, threads, &finds->ended, error);
+}
+
 tn_status tn_finds_end(tn_finds *finds, tn_status status, const tn_error *error)
 {
     if (finds->has_ways)

@@ -50,6 +50,10 @@ typedef struct tn_found_of {
 typedef struct tn_taker {
     bool (*begins)(void *context, tn_found_of *of); /* before the first; may be NULL */
     bool (*takes)(void *context, const tn_found_one *found);
+    /* Takes all plans of a library from one rank to before another by itself, on so many threads; NULL: it takes each.
+     * *ended: it has enough. */
+    tn_status (*lists)(void *context, const tn_library *library, mpz_srcptr from, mpz_srcptr to, unsigned threads,
+                       bool *ended, tn_error *error);
     void *context;
 } tn_taker;
 
@@ -69,6 +73,12 @@ tn_status tn_finds_begin(tn_finds *finds, tn_error *error);
 
 /* TN_STOPPED if the taker has enough: then `ended` is set. */
 tn_status tn_finds_give(tn_finds *finds, const tn_found_one *found, tn_error *error);
+
+/* Can it be given plans of ranks that follow one another, all together? After the taker has begun. */
+bool tn_finds_lists(const tn_finds *finds);
+
+/* Gives the plans of these ranks; as tn_finds_give. */
+tn_status tn_finds_list(tn_finds *finds, mpz_srcptr from, mpz_srcptr to, unsigned threads, tn_error *error);
 
 /* What the question comes to after that status, which is said. */
 tn_status tn_finds_end(tn_finds *finds, tn_status status, const tn_error *error);

@@ -119,7 +119,7 @@ static bool takes(void *context, const tn_found_one *found)
 static void list(tn_job *job, const tn_best_request *request)
 {
     listing l = {.job = job, .json = settings_of(job)->written.format == TN_FORMAT_JSON};
-    const tn_taker taker = {begins, takes, &l};
+    const tn_taker taker = {.begins = begins, .takes = takes, .context = &l};
     tn_reply answer;
     job->session.taker = &taker;
     bool found = tn_job_answered(job, tn_ask_best(&job->session, request, &answer));

@@ -11,6 +11,7 @@
 #include "driver/parquet/parquet.h"
 #include "driver/plan/provenance.h"
 #include "runtime/house/house.h"
+#include "runtime/plan/library/listing.h"
 #include "runtime/plan/store/sqlite.h"
 
 /* ---- writes rows in the format that the options ask for */
@@ -203,6 +204,50 @@ static void begin_progress(tn_found_rows *rows)
     rows->progress.shows = rows->progress.shows && !(to_stdout && isatty(STDOUT_FILENO)); /* not between the rows */
 }
 
+/* ---- taken all together */
+
+static bool append_plan(void *context, const mpz_t rank, const tn_tray *trays, uint32_t length, tn_buffer *text,
+                        tn_buffer *room)
+{
+    const tn_found_rows *rows = context;
+    return tn_plan_writer_text(rows->writer, rank, trays, length, text, room);
+}
+
+static tn_status put_plans(void *context, const tn_buffer *text, uint64_t plans, tn_error *error)
+{
+    tn_found_rows *rows = context;
+    tn_status status = tn_plan_writer_put(rows->writer, text, error);
+    if (status != TN_OK) {
+        rows->put_failed = true;
+        return status;
+    }
+    mpz_add_ui(rows->next, rows->next, (unsigned long)plans);
+    rows->written += plans;
+    if (rows->enumerates)
+        tn_progress_update(&rows->progress, done(rows));
+    return TN_OK;
+}
+
+static tn_status lists(void *context, const tn_library *library, mpz_srcptr from, mpz_srcptr to, unsigned threads,
+                       bool *ended, tn_error *error)
+{
+    tn_found_rows *rows = context;
+    const tn_plan_listing listing = {.library = library,
+                                     .from = from,
+                                     .to = to,
+                                     .threads = threads,
+                                     .watch = rows->job->opened.module->watch,
+                                     .append = append_plan,
+                                     .put = put_plans,
+                                     .context = rows};
+    tn_status status = tn_library_list(&listing, error);
+    if (status == TN_OK || !rows->put_failed)
+        return status;
+    tn_job_fail(rows->job, error);
+    *ended = true;
+    return TN_STOPPED;
+}
+
 /* ---- taken */
 
 static bool begins(void *context, tn_found_of *of)
@@ -218,6 +263,8 @@ static bool begins(void *context, tn_found_of *of)
     }
     if (of->from && rows->writer)
         resume(rows, of);
+    if (!of->houses && !of->rows && of->plans->library && tn_plan_writer_is_text(rows->writer))
+        rows->taker.lists = lists;
     if (rows->sample && rows->writer && tn_plan_writer_resumes(rows->writer))
         tn_interrupt_last_words(PART, rows->settings->output);
     if (rows->enumerates)
@@ -304,7 +351,8 @@ static bool takes(void *context, const tn_found_one *found)
 
 void tn_found_rows_begin(tn_found_rows *rows, tn_job *job, const tn_written_settings *settings, const char *made)
 {
-    *rows = (tn_found_rows){.job = job, .settings = settings, .made = made, .taker = {begins, takes, rows}};
+    *rows = (tn_found_rows){
+        .job = job, .settings = settings, .made = made, .taker = {.begins = begins, .takes = takes, .context = rows}};
     mpz_inits(rows->first, rows->next, NULL);
     job->session.taker = &rows->taker;
 }

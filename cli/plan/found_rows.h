@@ -76,6 +76,7 @@ typedef struct tn_found_rows {
     tn_provenance described; /* of houses */
     mpz_t first, next;       /* ranks: the first of all, before anything was resumed, and the next */
     uint64_t written;        /* those resumed included */
+    bool put_failed;         /* plans that were made together could not be written */
     tn_buffer line, members; /* of a house */
     tn_progress progress;
 } tn_found_rows;

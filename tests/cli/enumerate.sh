@@ -26,6 +26,26 @@ for format in json csv bin sqlite; do
         fail "$format does not read back as it was written"
 done
 
+# Threads make blocks of ranks, which are put in their order; they begin small, and grow. 22,000 plans are several rounds of them.
+more() {
+    "$TARTAN" enumerate "$files/sheds.plan" -l any-sheds --trays 0..7 "$@"
+}
+for format in lines json csv bin; do
+    more --format $format --threads 1 >"$scratch/one"
+    for threads in 2 3 4; do
+        more --format $format --threads $threads | cmp - "$scratch/one" || fail "$threads threads write other $format"
+    done
+    more --format $format --threads 3 -o "$scratch/plans.$format" && cmp "$scratch/plans.$format" "$scratch/one" || fail "another file of $format"
+done
+more --threads 1 >"$scratch/one"
+is 'blocks of plans' "$(wc -l <"$scratch/one")" 21845
+for from in 0 63 64 5000 21844; do
+    more --from $from --limit 4097 --threads 3 | cmp - <(tail -n +$((from + 1)) "$scratch/one" | head -4097) || fail "other plans from rank $from on"
+done
+"$TARTAN" prune "$files/sheds.plan" "$scratch/one" -l any-sheds --trays 0..7 | cmp - "$scratch/one" || fail 'plans of several threads do not read back'
+is 'a reader that leaves' "$(more --threads 2 | head -3)" "$(head -3 "$scratch/one")"
+[ ! -w /dev/full ] || exits 3 "$TARTAN" enumerate "$files/sheds.plan" -l any-sheds --trays 0..7 --threads 2 -o /dev/full
+
 # A database says how its plans are drawn.
 "$TARTAN" sample "$files/market.plan" 6 -l market --seed 3 -o "$scratch/weighed.sqlite" || fail 'a sample by weight in a database'
 python3 -c 'import sqlite3, sys

@@ -197,6 +197,17 @@ typedef struct tn_plan_row {
 } tn_plan_row;
 tn_status tn_plan_writer_write_row(tn_plan_writer *writer, const mpz_t rank, const tn_plan_row *row, tn_error *error);
 
+/* Is what it writes a text, or packed, plan after plan? Then plans may also be made on several threads, and put in
+ * their order. */
+bool tn_plan_writer_is_text(const tn_plan_writer *writer);
+
+/* Appends a plan to a text, as it is in the file; `room` is memory for it. By any thread. false: out of memory. */
+bool tn_plan_writer_text(const tn_plan_writer *writer, const mpz_t rank, const tn_tray *trays, size_t length,
+                         tn_buffer *text, tn_buffer *room);
+
+/* Appends such a text to the file. */
+tn_status tn_plan_writer_put(tn_plan_writer *writer, const tn_buffer *text, tn_error *error);
+
 /* Appends the plans of another file that was written in the same format, with the same schema and options, byte by
  * byte; what such a file begins with is left out. Not for SQLite and Parquet, nor from or to compressed files.
  * TN_INVALID (E0604) where it does not begin so. */

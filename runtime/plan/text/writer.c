@@ -115,12 +115,11 @@ static bool columns_header(tn_plan_writer *writer)
 }
 
 /* A row a tray; for the plan without trays one that says so. */
-static bool append_columns(tn_plan_writer *writer, const char *rank, const tn_plan_row *row)
+static bool append_columns(const tn_plan_writer *writer, const char *rank, const tn_plan_row *row, tn_buffer *out)
 {
     const tn_schema *schema = writer->schema;
     const tn_tray *trays = row->trays;
     size_t length = row->length;
-    tn_buffer *out = &writer->text;
     bool done = length > 0 || tn_buffer_printf(out, "%s,0", rank);
     for (uint32_t f = 0; done && length == 0 && f < schema->field_count; f++)
         done = append_text(out, ",");
@@ -165,17 +164,21 @@ static bool bin_header(tn_plan_writer *writer, const tn_plan_metadata *metadata)
            tn_buffer_append(&writer->text, lines->data, lines->size);
 }
 
-static tn_status flush_text(tn_plan_writer *writer, tn_error *error)
+static tn_status write_bytes(tn_plan_writer *writer, const char *bytes, size_t size, tn_error *error)
 {
-    size_t size = writer->text.size;
     FILE *out = writer->output.stream;
-    writer->text.size = 0;
-    if (size == 0 ||
-        (writer->compressing ? writer->compression->write(writer->compressing, writer->text.data, size, false, out)
-                             : fwrite(writer->text.data, 1, size, out) == size))
+    if (size == 0 || (writer->compressing ? writer->compression->write(writer->compressing, bytes, size, false, out)
+                                          : fwrite(bytes, 1, size, out) == size))
         return TN_OK;
     const char *shown = strcmp(writer->path, "-") == 0 ? "standard output" : writer->path;
     return tn_cannot_write(shown, errno, error);
+}
+
+static tn_status flush_text(tn_plan_writer *writer, tn_error *error)
+{
+    size_t size = writer->text.size;
+    writer->text.size = 0;
+    return write_bytes(writer, writer->text.data, size, error);
 }
 
 /* A file gets plans many at a time; others, such as a pipe, each at once. */
@@ -268,9 +271,9 @@ tn_status tn_plan_writer_open(const tn_schema *schema, const char *path, const t
 
 /* ---- plans */
 
-static bool append_csv(tn_plan_writer *writer, const char *rank, const tn_plan_row *row)
+static bool append_csv(const tn_plan_writer *writer, const char *rank, const tn_plan_row *row, tn_buffer *out,
+                       tn_buffer *line)
 {
-    tn_buffer *out = &writer->text, *line = &writer->packed;
     line->size = 0;
     if (!tn_buffer_printf(out, "%s,%zu,", rank, row->length))
         return false;
@@ -288,21 +291,21 @@ static bool append_csv(tn_plan_writer *writer, const char *rank, const tn_plan_r
     return done && append_text(out, "\n");
 }
 
-static bool append_packed(tn_plan_writer *writer, const tn_tray *trays, size_t length)
+static bool append_packed(const tn_plan_writer *writer, const tn_tray *trays, size_t length, tn_buffer *out)
 {
     size_t rest = length;
     do {
         char byte = (char)((rest & 0x7f) | (rest > 0x7f ? 0x80 : 0));
-        if (!tn_buffer_append(&writer->text, &byte, 1))
+        if (!tn_buffer_append(out, &byte, 1))
             return false;
         rest >>= 7;
     } while (rest > 0);
-    return tn_pack_trays(writer->schema, trays, length, &writer->text);
+    return tn_pack_trays(writer->schema, trays, length, out);
 }
 
-static bool append_json(tn_plan_writer *writer, const char *rank, const tn_plan_row *row)
+static bool append_json(const tn_plan_writer *writer, const char *rank, const tn_plan_row *row, tn_buffer *out)
 {
-    tn_json json = tn_json_text(&writer->text, TN_JSON_TIGHT);
+    tn_json json = tn_json_text(out, TN_JSON_TIGHT);
     tn_json_object(&json, NULL);
     if (rank)
         tn_json_string(&json, "rank", rank);
@@ -314,31 +317,33 @@ static bool append_json(tn_plan_writer *writer, const char *rank, const tn_plan_
         tn_json_written(&json, row->members, strlen(row->members));
     tn_json_object_end(&json);
     tn_json_end_line(&json);
-    return !writer->text.failed;
+    return !out->failed;
 }
 
-static bool append_line(tn_plan_writer *writer, const tn_plan_row *row)
+static bool append_line(const tn_plan_writer *writer, const tn_plan_row *row, tn_buffer *out)
 {
     size_t texts = tn_writer_texts(writer);
     bool before = texts && writer->rows->before, ok = true;
     if (texts)
-        ok = append_text(&writer->text, row->texts[texts - 1]) && (!before || append_text(&writer->text, "\t"));
+        ok = append_text(out, row->texts[texts - 1]) && (!before || append_text(out, "\t"));
     if (ok && (!texts || before))
-        ok = tn_writer_line(writer, row->trays, row->length, &writer->text);
-    return ok && append_text(&writer->text, "\n");
+        ok = tn_writer_line(writer, row->trays, row->length, out);
+    return ok && append_text(out, "\n");
 }
 
-static bool append_row(tn_plan_writer *writer, const char *rank, const tn_plan_row *row)
+/* As it is in a text; `room` is memory for it. */
+static bool append_row(const tn_plan_writer *writer, const char *rank, const tn_plan_row *row, tn_buffer *out,
+                       tn_buffer *room)
 {
     switch (writer->format) {
     case TN_FORMAT_CSV:
-        return writer->columns ? append_columns(writer, rank, row) : append_csv(writer, rank, row);
+        return writer->columns ? append_columns(writer, rank, row, out) : append_csv(writer, rank, row, out, room);
     case TN_FORMAT_JSON:
-        return append_json(writer, rank, row);
+        return append_json(writer, rank, row, out);
     case TN_FORMAT_BIN:
-        return append_packed(writer, row->trays, row->length);
+        return append_packed(writer, row->trays, row->length, out);
     default:
-        return append_line(writer, row);
+        return append_line(writer, row, out);
     }
 }
 
@@ -346,14 +351,46 @@ static tn_status write_ranked(tn_plan_writer *writer, const char *rank, const tn
 {
     if (writer->format == TN_FORMAT_SQLITE)
         return writer->sqlite->write(writer, rank, row, error);
-    return append_row(writer, rank, row) ? flush_much(writer, error) : tn_fail_memory(error);
+    return append_row(writer, rank, row, &writer->text, &writer->packed) ? flush_much(writer, error)
+                                                                         : tn_fail_memory(error);
+}
+
+/* Do its files say ranks? */
+static bool says_ranks(const tn_plan_writer *writer)
+{
+    return writer->format != TN_FORMAT_LINES && writer->format != TN_FORMAT_BIN;
+}
+
+bool tn_plan_writer_is_text(const tn_plan_writer *writer)
+{
+    return writer->format != TN_FORMAT_SQLITE && writer->format != TN_FORMAT_PARQUET && !writer->rows;
+}
+
+bool tn_plan_writer_text(const tn_plan_writer *writer, const mpz_t rank, const tn_tray *trays, size_t length,
+                         tn_buffer *text, tn_buffer *room)
+{
+    const tn_plan_row row = {.trays = trays, .length = length};
+    char digits[128], *large = NULL;
+    if (!says_ranks(writer))
+        return append_row(writer, NULL, &row, text, room);
+    if (mpz_sizeinbase(rank, 10) + 2 > sizeof digits && !(large = mpz_get_str(NULL, 10, rank)))
+        return false;
+    bool done = append_row(writer, large ? large : mpz_get_str(digits, 10, rank), &row, text, room);
+    free(large);
+    return done;
+}
+
+tn_status tn_plan_writer_put(tn_plan_writer *writer, const tn_buffer *text, tn_error *error)
+{
+    tn_status status = flush_text(writer, error);
+    return status == TN_OK ? write_bytes(writer, text->data, text->size, error) : status;
 }
 
 tn_status tn_plan_writer_write_row(tn_plan_writer *writer, const mpz_t rank, const tn_plan_row *row, tn_error *error)
 {
     char room[128];
-    if (writer->format == TN_FORMAT_LINES || writer->format == TN_FORMAT_BIN || !rank)
-        return write_ranked(writer, NULL, row, error); /* they say no ranks, or there is none */
+    if (!says_ranks(writer) || !rank)
+        return write_ranked(writer, NULL, row, error);
     if (writer->format == TN_FORMAT_PARQUET)
         return writer->parquet->write(writer, rank, row->trays, row->length, error);
     if (mpz_sizeinbase(rank, 10) + 2 <= sizeof room)
