@@ -1,6 +1,8 @@
 /* Puts houses on a page, one by one and side by side. */
 #include "driver/report/house_page.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,19 +14,54 @@
 
 /* ---- tables that are written for programs, read by people */
 
-/* A decimal fraction to two places; anything else as it is. */
-static bool put_cell(const tn_page *page, const char *text, size_t size)
+/* A number with its thousands apart. */
+static bool put_apart(const tn_page *page, const char *number)
+{
+    size_t whole = strcspn(number, ".");
+    bool good = true;
+    for (size_t i = 0; good && number[i]; i++)
+        good = (i == 0 || i >= whole || (whole - i) % 3 != 0 || number[i - 1] == '-' || tn_page_html(page, ",")) &&
+               tn_page_text_part(page, number + i, 1);
+    return good;
+}
+
+/* A number to so many places; anything else as it is. Numbers without a point may be codes: they are left alone, unless
+ * others in their place have one. */
+static bool put_cell(const tn_page *page, const char *text, size_t size, bool decimal)
 {
     char number[48], *end;
-    if (size == 0 || size >= sizeof number || !memchr(text, '.', size))
+    if (size == 0 || size >= sizeof number || !(decimal || memchr(text, '.', size)))
         return tn_page_text_part(page, text, size);
     memcpy(number, text, size);
     number[size] = '\0';
     double value = strtod(number, &end);
-    return *end ? tn_page_text_part(page, text, size) : tn_buffer_printf(page->text, "%.2f", value);
+    if (*end || fabs(value) > 1e15)
+        return tn_page_text_part(page, text, size);
+    snprintf(number, sizeof number, "%.2f", value);
+    return put_apart(page, number);
 }
 
-/* A line of CSV without quotes, as a row; `_` in heads is a blank. */
+/* "m2", as tables have it, is "m²" on pages. */
+static bool put_word(const tn_page *page, const char *word, size_t size)
+{
+    if (size == 2 && word[0] == 'm' && (word[1] == '2' || word[1] == '3'))
+        return tn_page_html(page, word[1] == '2' ? "m\xc2\xb2" : "m\xc2\xb3");
+    return tn_page_text_part(page, word, size);
+}
+
+/* The name of a column: `_` is a blank. */
+static bool put_name(const tn_page *page, const char *name, size_t size)
+{
+    bool good = true;
+    for (size_t at = 0, word; good && at < size; at += word + 1) {
+        for (word = 0; at + word < size && name[at + word] != '_';)
+            word++;
+        good = (at == 0 || tn_page_html(page, " ")) && put_word(page, name + at, word);
+    }
+    return good;
+}
+
+/* A line of CSV without quotes, as a row. */
 static bool put_row(const tn_page *page, const char *line, size_t size, bool head)
 {
     bool good = tn_page_html(page, "<tr>");
@@ -33,9 +70,12 @@ static bool put_row(const tn_page *page, const char *line, size_t size, bool hea
         while (at + length < size && line[at + length] != ',')
             length++;
         good = tn_page_html(page, head ? "<th>" : "<td>");
-        for (size_t i = 0; good && head && i < length; i++)
-            good = tn_page_text_part(page, line[at + i] == '_' ? " " : line + at + i, 1);
-        good = good && (head || put_cell(page, line + at, length)) && tn_page_html(page, head ? "</th>" : "</td>");
+        if (good && head)
+            good = put_name(page, line + at, length) && tn_page_html(page, "</th>");
+        else if (good)
+            good = (memchr(line + at, '.', length) ? put_cell(page, line + at, length, true)
+                                                   : put_word(page, line + at, length)) &&
+                   tn_page_html(page, "</td>");
         at += length + 1;
     }
     return good && tn_page_html(page, "</tr>\n");
@@ -120,6 +160,8 @@ tn_status tn_page_put_house(tn_page *page, const tn_reported_house *reported, bo
                            : status;
 }
 
+enum { IN_A_ROW = 4 }; /* so many houses need no second row */
+
 tn_status tn_page_put_gallery(tn_page *page, const tn_reported_house *houses, size_t count)
 {
     tn_pictured_house *pictured = calloc(count + 1, sizeof *pictured);
@@ -127,7 +169,10 @@ tn_status tn_page_put_gallery(tn_page *page, const tn_reported_house *houses, si
         return tn_fail_memory(page->error);
     for (size_t i = 0; i < count; i++)
         pictured[i] = (tn_pictured_house){&houses[i].house, &houses[i].solids, houses[i].name, ""};
-    const tn_house_gallery gallery = {.houses = pictured, .count = count, .camera = tn_house_sheet_camera()};
+    const tn_house_gallery gallery = {.houses = pictured,
+                                      .count = count,
+                                      .columns = count <= IN_A_ROW ? count : 0,
+                                      .camera = tn_house_sheet_camera()};
     tn_picture picture = tn_page_next_picture(page);
     tn_status status =
         tn_page_put_picture(page, &picture, "the houses", tn_house_gallery_draw(&gallery, &picture, page->error));
@@ -137,7 +182,8 @@ tn_status tn_page_put_gallery(tn_page *page, const tn_reported_house *houses, si
 
 /* ---- side by side */
 
-enum { PARTS = 5 }; /* of a house's line */
+/* Parts of a house's line that no column says: its section is the choices, which have columns. */
+enum { PARTS = 4 };
 
 /* What stands in the table: a row for each column of a table of houses, then for each part of a line. */
 typedef struct compared {
@@ -205,17 +251,28 @@ static bool differs(const compared *c, size_t column, int part)
     return !same;
 }
 
+/* Has a house a number with a point in the row? Then all of its numbers are written alike. */
+static bool is_decimal(const compared *c, size_t column, int part)
+{
+    size_t size;
+    bool decimal = false;
+    for (size_t i = 0; part < 0 && i < c->count; i++) {
+        const char *text = cell_of(c, i, column, part, &size);
+        decimal |= text && memchr(text, '.', size);
+    }
+    return decimal;
+}
+
 static bool put_compared(const compared *c, const char *name, size_t column, int part)
 {
-    bool good = tn_page_html(c->page, differs(c, column, part) ? "<tr class=\"differs\"><th>" : "<tr><th>");
-    for (const char *at = name; good && *at; at++)
-        good = tn_page_text_part(c->page, *at == '_' ? " " : at, 1);
-    good = good && tn_page_html(c->page, "</th>");
+    bool decimal = is_decimal(c, column, part),
+         good = tn_page_html(c->page, differs(c, column, part) ? "<tr class=\"differs\"><th>" : "<tr><th>") &&
+                put_name(c->page, name, strlen(name)) && tn_page_html(c->page, "</th>");
     for (size_t i = 0; good && i < c->count; i++) {
         size_t size;
         const char *text = cell_of(c, i, column, part, &size);
         good = tn_page_html(c->page, part < 0 ? "<td>" : "<td class=\"line\">") &&
-               (size == 0 || put_cell(c->page, text, size)) && tn_page_html(c->page, "</td>");
+               (size == 0 || put_cell(c->page, text, size, decimal)) && tn_page_html(c->page, "</td>");
     }
     return good && tn_page_html(c->page, "</tr>\n");
 }
@@ -232,7 +289,10 @@ static bool is_shown(const char *name)
 
 static bool put_compared_rows(const compared *c)
 {
-    static const char *const parts[PARTS] = {"plan", "section", "functions", "faces", "tiles"};
+    static const struct {
+        const char *name;
+        int part;
+    } parts[PARTS] = {{"plan", 0}, {"functions", 2}, {"faces", 3}, {"tiles", 4}};
     bool good = tn_page_html(c->page, "<h2 id=\"compared\">Side by side</h2>\n<p class=\"quiet\">What differs is "
                                       "marked.</p>\n<table class=\"compared\">\n<tr><th></th>");
     for (size_t i = 0; good && i < c->count; i++)
@@ -241,8 +301,8 @@ static bool put_compared_rows(const compared *c)
     good = good && tn_page_html(c->page, "</tr>\n");
     for (size_t i = 0; good && i < c->column_count; i++)
         good = !is_shown(c->columns[i].name) || put_compared(c, c->columns[i].name, i, -1);
-    for (int part = 0; good && part < PARTS; part++) /* of the line, which is the last column */
-        good = put_compared(c, parts[part], c->column_count - 1, part);
+    for (size_t i = 0; good && i < PARTS; i++) /* of the line, which is the last column */
+        good = put_compared(c, parts[i].name, c->column_count - 1, parts[i].part);
     return good && tn_page_html(c->page, "</table>\n");
 }
 

@@ -3,6 +3,7 @@
 
 #include <inttypes.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "driver/open/digits.h"
 #include "driver/report/page.h"
@@ -41,6 +42,22 @@ static bool put_name(const tn_house_reporting *r, tn_string name, tn_string doc)
            tn_page_html(&r->page, "</td><td>");
 }
 
+/* What a declaration says behind its name and the text that says what it is, which stand beside. */
+static bool put_declared(const tn_house_reporting *r, tn_string name, tn_string doc, uint32_t file, uint32_t begin,
+                         uint32_t end)
+{
+    const char *text = tn_text(r->module, r->module->SOURCE_records[file].text), *called = tn_text(r->module, name),
+               *from = strstr(text + begin, called),
+               *quote = *tn_text(r->module, doc) ? strchr(text + begin, '"') : NULL;
+    quote = quote ? strchr(quote + 1, '"') : NULL;
+    if (quote && quote < text + end)
+        begin = (uint32_t)(quote + 1 - text);
+    else if (from && from + strlen(called) < text + end)
+        begin = (uint32_t)(from + strlen(called) - text);
+    begin += (uint32_t)strspn(text + begin, " `");
+    return put_source(r, file, begin < end ? begin : end, end);
+}
+
 static bool put_storeys(const tn_house_reporting *r)
 {
     const tn_form_record *form = r->report->form->record;
@@ -62,7 +79,8 @@ static bool put_functions(const tn_house_reporting *r)
                                        "</th><th></th><th>where it may be</th></tr>\n");
     for (uint32_t i = 0; good && i < form->rule_count; i++) {
         const tn_cell_rule_record *rule = tn_form_rule(r->report->form, i);
-        good = put_name(r, rule->name, rule->doc) && put_source(r, rule->file, rule->begin, rule->end) &&
+        good = put_name(r, rule->name, rule->doc) &&
+               put_declared(r, rule->name, rule->doc, rule->file, rule->begin, rule->end) &&
                tn_page_html(&r->page, "</td></tr>\n");
     }
     return good && tn_page_html(&r->page, "</table>\n");
@@ -75,7 +93,8 @@ static bool put_openings(const tn_house_reporting *r)
                                        "<th></th><th>what it is</th></tr>\n");
     for (uint32_t i = 0; good && i < form->opening_count; i++) {
         const tn_opening_record *opening = &r->module->OPENING_records[form->opening_first + i];
-        good = put_name(r, opening->name, opening->doc) && put_source(r, opening->file, opening->begin, opening->end) &&
+        good = put_name(r, opening->name, opening->doc) &&
+               put_declared(r, opening->name, opening->doc, opening->file, opening->begin, opening->end) &&
                tn_page_html(&r->page, "</td></tr>\n");
     }
     good =
@@ -211,23 +230,34 @@ static bool put_counts(const tn_house_reporting *r)
     for (uint32_t k = report->low; k <= report->high; k++)
         mpz_add(all, all, report->lengths[k - report->low]);
     good = good && tn_page_html(&r->page, "<p><b>") && put_number(r, all) &&
-           tn_page_html(&r->page, "</b> houses.</p>\n<table class=\"words\"><tr><th>trays</th><th>houses</th></tr>\n");
+           tn_page_html(
+               &r->page,
+               "</b> houses.</p>\n<table class=\"words\"><tr><th>trays</th><th class=\"number\">houses</th></tr>\n");
     mpz_clear(all);
     for (uint32_t k = report->low; good && k <= report->high; k++)
         good = put_length(r, k);
     return good && tn_page_html(&r->page, "</table>\n");
 }
 
+/* What a clause asks, unless that is the rule that it is called after. */
+static bool put_asked(const tn_house_reporting *r, const tn_house_clause_record *record)
+{
+    const char *text = tn_text(r->module, r->module->SOURCE_records[record->file].text) + record->begin,
+               *name = tn_text(r->module, record->name);
+    size_t size = record->end - record->begin;
+    if (size == strlen(name) && memcmp(text, name, size) == 0)
+        return true;
+    return tn_page_html(&r->page, "<code>") && tn_page_text_part(&r->page, text, size) &&
+           tn_page_html(&r->page, "</code>");
+}
+
 static bool put_clause(const tn_house_reporting *r, uint32_t clause)
 {
     const tn_house_report *report = r->report;
     const tn_house_clause_record *record = &r->module->HOUSE_CLAUSE_records[report->library->clause_first + clause];
-    const char *text = tn_text(r->module, r->module->SOURCE_records[record->file].text);
     bool good = tn_page_html(&r->page, "<tr><td>") && tn_page_text(&r->page, tn_text(r->module, record->name)) &&
                 tn_page_html(&r->page, "</td><td>") && tn_page_text(&r->page, tn_text(r->module, record->doc)) &&
-                tn_page_html(&r->page, "</td><td><code>") &&
-                tn_page_text_part(&r->page, text + record->begin, record->end - record->begin) &&
-                tn_page_html(&r->page, "</code></td>");
+                tn_page_html(&r->page, "</td><td>") && put_asked(r, record) && tn_page_html(&r->page, "</td>");
     if (good && report->kept_out)
         good = tn_page_html(&r->page, "<td class=\"number\">") && put_number(r, report->kept_out[clause]) &&
                tn_page_html(&r->page, "</td><td class=\"number\">") && put_number(r, report->alone[clause]) &&
@@ -243,7 +273,8 @@ static bool put_clauses(const tn_house_reporting *r)
         (!counted || tn_page_html(&r->page, "<p>Of the houses that the form allows, a clause keeps out so many, "
                                             "and so many of them that no other does.</p>\n")) &&
         tn_page_html(&r->page, "<table class=\"words\"><tr><th>clause</th><th></th><th></th>") &&
-        tn_page_html(&r->page, counted ? "<th>keeps out</th><th>it alone</th></tr>\n" : "</tr>\n");
+        tn_page_html(&r->page, counted ? "<th class=\"number\">keeps out</th><th class=\"number\">it alone</th></tr>\n"
+                                       : "</tr>\n");
     for (uint32_t i = 0; good && i < r->report->library->clause_count; i++)
         good = put_clause(r, i);
     return good && tn_page_html(&r->page, "</table>\n");

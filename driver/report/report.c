@@ -460,13 +460,14 @@ static tn_status put_totals(const tn_reporting *r)
 
 /* ---- the page */
 
-static bool put_head(const tn_reporting *r)
+static bool put_head(const tn_reporting *r, const tn_reported_measures *measures)
 {
     return tn_page_begin(&r->page, tn_text(r->module, r->ready->record->name),
                          tn_text(r->module, r->ready->record->doc)) &&
            tn_page_params(&r->page, r->opened) &&
-           tn_page_html(&r->page, "<nav><a href=\"#plans\">Plans</a> <a href=\"#figures\">Figures</a> <a "
-                                  "href=\"#rules\">Rules</a> <a href=\"#each\">Plans one by one</a> <a "
+           tn_page_html(&r->page, "<nav><a href=\"#plans\">Plans</a> <a href=\"#figures\">Figures</a> ") &&
+           (measures->count == 0 || tn_page_html(&r->page, "<a href=\"#measures\">Measures</a> ")) &&
+           tn_page_html(&r->page, "<a href=\"#rules\">Rules</a> <a href=\"#each\">Plans one by one</a> <a "
                                   "href=\"#findings\">Warnings</a></nav>\n");
 }
 
@@ -504,7 +505,7 @@ static tn_status put_limits(tn_reporting *r)
 /* What a client asks comes first; then the rules, and what is wrong or not known. */
 static tn_status put_page(tn_reporting *r, const tn_reported_measures *measures)
 {
-    tn_status status = tn_page_written(&r->page, put_head(r));
+    tn_status status = tn_page_written(&r->page, put_head(r, measures));
     if (status == TN_OK)
         status = put_sheet(r);
     if (status == TN_OK)

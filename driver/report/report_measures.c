@@ -10,12 +10,15 @@
 
 enum { SHOWN = 5 };
 
-/* The picture says what the measure is of. */
-static bool put_title(const tn_reporting *r, uint32_t measure)
+/* The picture has the measure's name, and says what it is of. */
+static bool put_title(const tn_reporting *r, const tn_reported_measure *measure)
 {
-    const char *name = tn_named_measure(r->module, measure);
-    return tn_page_html(&r->page, "<section class=\"card measure\" id=\"measure-") && tn_page_text(&r->page, name) &&
-           tn_page_html(&r->page, "\"><h3>") && tn_page_text(&r->page, name) && tn_page_html(&r->page, "</h3>\n");
+    const char *name = tn_named_measure(r->module, measure->measure);
+    bool good = tn_page_html(&r->page, "<section class=\"card measure\" id=\"measure-") &&
+                tn_page_text(&r->page, name) && tn_page_html(&r->page, "\" aria-label=\"") &&
+                tn_page_text(&r->page, name) && tn_page_html(&r->page, "\">\n");
+    return good && (!measure->limit || (tn_page_html(&r->page, "<h3>") && tn_page_text(&r->page, name) &&
+                                        tn_page_html(&r->page, "</h3>\n")));
 }
 
 /* ---- the plans with the least or the most */
@@ -100,7 +103,7 @@ static tn_status put_spread(tn_reporting *r, tn_spread *spread)
 /* A measure past a limit is not shown, and why is told. */
 static tn_status put_measure(tn_reporting *r, tn_reported_measure *measure)
 {
-    tn_status status = tn_page_written(&r->page, put_title(r, measure->measure));
+    tn_status status = tn_page_written(&r->page, put_title(r, measure));
     if (status == TN_OK && measure->limit)
         status =
             tn_page_written(&r->page, tn_page_html(&r->page, "<p class=\"quiet\">not worked out: ") &&
