@@ -102,7 +102,7 @@ tn_status tn_numbered_open(tn_numbered *n, tn_session *session, const tn_house_s
     if (status != TN_OK)
         return status;
     const tn_module *module = session->opened->module;
-    status = tn_schema_new(module, module->FORM_records[n->record->form].schema, 0, &n->schema, &error);
+    status = tn_form_schema(module, n->record->form, &n->schema, &error);
     if (status == TN_OK) {
         tn_form_ready(module, n->record->form, n->schema, &n->form);
         status = tn_library_new(n->schema, n->record->plans, &settings->plans, &n->opened, &error);

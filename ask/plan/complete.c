@@ -643,7 +643,7 @@ static tn_status make_schema(tn_session *session, const char *library, tn_open_c
     const tn_module *module = session->opened->module;
     const tn_house_library_record *record = &module->HOUSE_LIBRARY_records[tn_house_library_find(module, library)];
     tn_error error;
-    tn_status status = tn_schema_new(module, module->FORM_records[record->form].schema, 0, &c->own, &error);
+    tn_status status = tn_form_schema(module, record->form, &c->own, &error);
     c->schema = c->own;
     c->title = tn_text(module, record->name);
     c->doc = tn_text(module, record->doc);

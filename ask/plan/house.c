@@ -399,8 +399,9 @@ static void warn_of_hanging(const building *b, const tn_house *house, const tn_b
     }
     if (count > HANGING_SHOWN)
         tn_note(list, d, NULL, "and %zu more", count - HANGING_SHOWN);
-    tn_help(list, d, "what bears such a wall is a wall of that thickness below, outside or `party`, a post, or a `beam` "
-                     "whose `span` is as long");
+    tn_help(list, d,
+            "what bears such a wall is a wall of that thickness below, outside or `party`, a post, or a `beam` "
+            "whose `span` is as long");
 }
 
 static tn_status warn_of_walls(const building *b, const tn_house *house, tn_error *error)
@@ -498,7 +499,7 @@ static tn_status read_line(building *b, size_t max_length)
     tn_status status = choose_form(b->session, b->request->form, &index);
     if (status != TN_OK)
         return status;
-    if (tn_schema_new(module, module->FORM_records[index].schema, 0, &schema, &error) != TN_OK)
+    if (tn_form_schema(module, index, &schema, &error) != TN_OK)
         return tn_session_fail(b->session, &error);
     tn_form_ready(module, index, schema, &form);
     status = read_house(b, &form, index, max_length);

@@ -119,10 +119,13 @@ static tn_status judge_part(const reader *r, tn_plan_vm *vm, tn_tray tray, tn_sp
 static tn_status judge_parts(const reader *r, tn_spelled *spelled, tn_error *error)
 {
     tn_plan_vm *vm = NULL;
+    tn_status status = tn_schema_listed(r->schema, "an open plan goes", error);
+    if (status != TN_OK)
+        return status;
     spelled->fits = calloc(tn_size_of(spelled->count, r->schema->tray_count) + 1, sizeof *spelled->fits);
     if (!spelled->fits)
         return tn_fail_memory(error);
-    tn_status status = tn_plan_vm_new(spelled->schema, 1, &vm, error);
+    status = tn_plan_vm_new(spelled->schema, 1, &vm, error);
     for (tn_tray tray = 0; status == TN_OK && tray < r->schema->tray_count; tray++)
         status = judge_part(r, vm, tray, spelled, error);
     tn_plan_vm_free(vm);

@@ -103,8 +103,14 @@ static tn_status find_changed(const trying *t, const tn_module *changed, uint32_
 
 static bool same_trays(const tn_schema *a, const tn_schema *b)
 {
-    return a->tray_count == b->tray_count &&
-           memcmp(a->tray_values, b->tray_values, (size_t)a->tray_count * a->field_count) == 0;
+    if (a->tray_count != b->tray_count || !a->legal != !b->legal)
+        return false;
+    if (a->legal) { /* equal trays, equal nodes */
+        const tn_interner *one = &a->legal->nodes, *other = &b->legal->nodes;
+        return one->words_used == other->words_used &&
+               memcmp(one->words, other->words, one->words_used * sizeof *one->words) == 0;
+    }
+    return memcmp(a->tray_values, b->tray_values, (size_t)a->tray_count * a->field_count) == 0;
 }
 
 static bool same_lengths(const trying *t, const tn_module *changed)

@@ -15,7 +15,7 @@ tn_status tn_house_counter_open(const tn_module *module, uint32_t library, uint3
                             .library = &module->HOUSE_LIBRARY_records[library],
                             .max_states = max_states,
                             .states_left = (uint64_t)max_states * TN_COUNTER_LIMITS};
-    tn_status status = tn_schema_new(module, module->FORM_records[c->library->form].schema, 0, &c->schema, error);
+    tn_status status = tn_form_schema(module, c->library->form, &c->schema, error);
     if (status != TN_OK)
         return status;
     tn_form_ready(module, c->library->form, c->schema, &c->form);

@@ -10,7 +10,7 @@ tn_status tn_house_judge_open(const tn_module *module, uint32_t form, size_t max
                               tn_error *error)
 {
     *judge = (tn_house_judge){.module = module};
-    tn_status status = tn_schema_new(module, module->FORM_records[form].schema, 0, &judge->schema, error);
+    tn_status status = tn_form_schema(module, form, &judge->schema, error);
     if (status != TN_OK)
         return status;
     tn_form_ready(module, form, judge->schema, &judge->form);

@@ -269,7 +269,7 @@ tn_status tn_survey_begin(const tn_module *module, uint32_t form, tn_opened *ope
     if (!s)
         return tn_fail_memory(error);
     s->opened = opened;
-    tn_status status = tn_schema_new(module, module->FORM_records[form].schema, 0, &s->schema, error);
+    tn_status status = tn_form_schema(module, form, &s->schema, error);
     if (status == TN_OK) {
         tn_form_ready(module, form, s->schema, &s->form);
         s->house = (tn_house){.form = &s->form, .trays = &s->tray, .length = 1};

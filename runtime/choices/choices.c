@@ -101,8 +101,8 @@ static uint32_t field_of(const tn_choice_diagram *choices, tn_choice_set set)
     return field;
 }
 
-/* What follows a value of the field in the set: of a set that begins later, the set itself. */
-static tn_choice_set follow_of(const tn_choice_diagram *choices, tn_choice_set set, uint32_t field, uint32_t value)
+/* Of a set that begins later, it is the set itself. */
+tn_choice_set tn_choices_follow(const tn_choice_diagram *choices, tn_choice_set set, uint32_t field, uint32_t value)
 {
     uint32_t own = choices->fields;
     const uint32_t *follow = set > TN_CHOICE_ALL ? node_of(choices, set, &own) : NULL;
@@ -174,7 +174,7 @@ tn_choice_set tn_choices_not(tn_choice_diagram *choices, tn_choice_set set)
     uint32_t field;
     node_of(choices, set, &field);
     for (uint32_t v = 0; v < choices->counts[field]; v++) /* making one moves the nodes */
-        follow[v] = tn_choices_not(choices, follow_of(choices, set, field, v));
+        follow[v] = tn_choices_not(choices, tn_choices_follow(choices, set, field, v));
     tn_choice_set made = tn_choices_node(choices, field, follow);
     return made == TN_CHOICE_LOST || !note_opposites(choices, set, made) ? TN_CHOICE_LOST : made;
 }
@@ -211,7 +211,8 @@ tn_choice_set tn_choices_and(tn_choice_diagram *choices, tn_choice_set a, tn_cho
     tn_choice_set follow[VALUES_MAX];
     uint32_t one = field_of(choices, a), other = field_of(choices, b), field = one < other ? one : other;
     for (uint32_t v = 0; v < choices->counts[field]; v++)
-        follow[v] = tn_choices_and(choices, follow_of(choices, a, field, v), follow_of(choices, b, field, v));
+        follow[v] =
+            tn_choices_and(choices, tn_choices_follow(choices, a, field, v), tn_choices_follow(choices, b, field, v));
     return keep_join(choices, pair, tn_choices_node(choices, field, follow));
 }
 
@@ -252,7 +253,7 @@ static uint64_t count_from(tn_choice_diagram *choices, tn_choice_set set, uint32
     uint64_t size = set <= TN_CHOICE_ALL ? set : choices->sizes[set - 2];
     if (size == 0 && set > TN_CHOICE_ALL) {
         for (uint32_t v = 0; v < choices->counts[field]; v++)
-            size = plus(size, count_from(choices, follow_of(choices, set, field, v), field + 1));
+            size = plus(size, count_from(choices, tn_choices_follow(choices, set, field, v), field + 1));
         choices->sizes[set - 2] = size;
     }
     while (field-- > from)
@@ -303,7 +304,7 @@ static bool list_from(const listing *l, tn_choice_set set, uint32_t field)
         return l->visit(l->context, l->values);
     for (uint32_t v = 0; v < l->choices->counts[field]; v++) {
         l->values[field] = (uint8_t)v;
-        if (!list_from(l, follow_of(l->choices, set, field, v), field + 1))
+        if (!list_from(l, tn_choices_follow(l->choices, set, field, v), field + 1))
             return false;
     }
     return true;
@@ -339,15 +340,15 @@ static bool box_from(const boxing *b, tn_choice_set set)
         return set == TN_CHOICE_NONE || b->visit(b->context, b->mask);
     uint32_t own = field_of(b->choices, set), start = b->choices->starts[own];
     for (uint32_t v = 0; v < b->choices->counts[own]; v++) {
-        tn_choice_set follow = follow_of(b->choices, set, own, v);
+        tn_choice_set follow = tn_choices_follow(b->choices, set, own, v);
         bool before = follow == TN_CHOICE_NONE;
         for (uint32_t u = 0; u < v && !before; u++)
-            before = follow_of(b->choices, set, own, u) == follow;
+            before = tn_choices_follow(b->choices, set, own, u) == follow;
         if (before)
             continue;
         set_bits(b, own, false);
         for (uint32_t u = v; u < b->choices->counts[own]; u++)
-            if (follow_of(b->choices, set, own, u) == follow)
+            if (tn_choices_follow(b->choices, set, own, u) == follow)
                 b->mask[(start + u) / WORD_BITS] |= UINT64_C(1) << ((start + u) % WORD_BITS);
         bool goes_on = box_from(b, follow);
         set_bits(b, own, true);

@@ -35,6 +35,9 @@ uint32_t tn_choices_values(const tn_choice_diagram *choices, uint32_t field);
 /* Is it for want of room, and not of memory, that sets were lost? */
 bool tn_choices_full(const tn_choice_diagram *choices);
 
+/* What may follow a value of a field in a set that begins with this field, or a later one. */
+tn_choice_set tn_choices_follow(const tn_choice_diagram *choices, tn_choice_set set, uint32_t field, uint32_t value);
+
 /* Each field has one of the values whose bits are set; the fields' bits follow one another. */
 tn_choice_set tn_choices_box(tn_choice_diagram *choices, const uint64_t *mask);
 

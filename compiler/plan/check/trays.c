@@ -1,8 +1,10 @@
 /* What a schema says of its trays: which there are, and their numbers. What an older schema says holds too. */
+#include <inttypes.h>
 #include <string.h>
 
 #include "compiler/common/limits.h"
 #include "compiler/plan/check/amount.h"
+#include "runtime/choices/labelling.h"
 
 enum { TRIES = 1 << 18 };
 
@@ -235,6 +237,27 @@ static void report_nothing_legal(tn_check *check, tn_checked_schema *schema)
                  : "leave one `forbid` out, or narrow it with more items");
 }
 
+/* Every legal tray has a number. What takes too long to count is said where it is asked about. */
+static void check_tray_count(tn_check *check, tn_checked_schema *schema)
+{
+    uint64_t trays = 0;
+    tn_choice_set legal = is_small(schema, TRIES) ? TN_CHOICE_NONE : tn_legal_set(check, schema);
+    if (legal == TN_CHOICE_NONE || legal == TN_CHOICE_LOST)
+        return;
+    check->out_of_memory |= !tn_choices_count(schema->choices, legal, &trays);
+    if (trays <= TN_LABELLED_MAX)
+        return;
+    schema->broken = true;
+    char many[32] = "very many";
+    if (trays < UINT64_MAX)
+        snprintf(many, sizeof many, "%" PRIu64, trays);
+    tn_diagnostic *d =
+        tn_report(check->diagnostics, E_TOO_MANY_TRAYS, schema->ast->name->node.span,
+                  "schema `%s` has %s legal trays, more than the limit of %u", schema->name, many, TN_LABELLED_MAX);
+    tn_help(check->diagnostics, d,
+            "name fewer values, or fewer fields, or say by `only` or `forbid` which trays there are");
+}
+
 void tn_check_forbids(tn_check *check, tn_checked_schema *schema)
 {
     size_t room = 0, declared = 0;
@@ -257,6 +280,8 @@ void tn_check_forbids(tn_check *check, tn_checked_schema *schema)
         schema->broken |= !tn_check_undivided(check, schema, l.sets[i], l.spans[i]);
     if (!schema->broken && schema->forbid_count > 0 && !has_legal_tray(check, schema))
         report_nothing_legal(check, schema);
+    if (!schema->broken)
+        check_tray_count(check, schema);
 }
 
 /* ---- numbers */

@@ -113,6 +113,19 @@ bool tn_form_names_both(const tn_house_form *form, const tn_face_line_record *li
     return line->second != TN_NO_RECORD && !is_any(form->module, line->first) && !is_any(form->module, line->second);
 }
 
+tn_status tn_form_schema(const tn_module *module, uint32_t index, tn_schema **schema, tn_error *error)
+{
+    tn_status status = tn_schema_new(module, module->FORM_records[index].schema, 0, schema, error);
+    if (status != TN_OK)
+        return status;
+    status = tn_schema_listed(*schema, "a form goes", error);
+    if (status != TN_OK) {
+        tn_schema_free(*schema);
+        *schema = NULL;
+    }
+    return status;
+}
+
 void tn_form_ready(const tn_module *module, uint32_t index, const tn_schema *schema, tn_house_form *form)
 {
     const tn_form_record *record = &module->FORM_records[index];

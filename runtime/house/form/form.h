@@ -25,6 +25,10 @@ typedef struct tn_house_form {
     bool has_outdoor;                        /* some function is outdoor */
 } tn_house_form;
 
+/* The schema of the FORM record `index`, whose trays houses go through one by one: E0803 if they are too many to be
+ * listed, and as of tn_schema_new. Free with tn_schema_free. */
+tn_status tn_form_schema(const tn_module *module, uint32_t index, tn_schema **schema, tn_error *error);
+
 /* Makes the FORM record `index` ready; `schema` is its schema. */
 void tn_form_ready(const tn_module *module, uint32_t index, const tn_schema *schema, tn_house_form *form);
 

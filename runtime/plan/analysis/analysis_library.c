@@ -515,7 +515,7 @@ static tn_status list_droppers(const tn_analysed_clauses *c, size_t i, tn_plan_a
     bool good = true;
     finding->reasons = malloc(c->count * sizeof *finding->reasons);
     for (size_t k = 0; good && k < plan->length; k++)
-        good = tn_key_push(&word, c->analysis->classes->of_tray[plan->trays[k]]);
+        good = tn_key_push(&word, tn_class_of(c->analysis->classes, plan->trays[k]));
     tn_status status = good && finding->reasons ? TN_OK : tn_fail_memory(error);
     if (status == TN_OK)
         status = tn_plan_analysis_confirm(c->analysis, finding->plans, c->clauses[i].holds, true, error);

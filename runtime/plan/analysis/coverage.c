@@ -165,7 +165,7 @@ static bool accepts(const tn_coverage *c, const tn_dfa *dfa, const tn_tray *tray
 {
     uint32_t state = 0;
     for (size_t k = 0; k < length; k++)
-        state = tn_dfa_read(dfa, state, c->classes->of_tray[trays[k]]);
+        state = tn_dfa_read(dfa, state, tn_class_of(c->classes, trays[k]));
     return dfa->accept[state];
 }
 

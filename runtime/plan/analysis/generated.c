@@ -81,7 +81,9 @@ tn_status tn_generated_beginning_find(const tn_schema *schema, uint32_t function
 {
     tn_classes *classes = NULL;
     *found = (tn_generated_beginning){0};
-    tn_status status = tn_classes_new(schema, &function, 1, &classes, error);
+    tn_status status = tn_schema_listed(schema, "what may follow a beginning goes", error);
+    if (status == TN_OK)
+        status = tn_classes_new(schema, &function, 1, &classes, error);
     if (status == TN_OK) {
         walk w = {.classes = classes, .least = trays_min, .most = trays_max};
         status = find(schema, &w, function, trays, length, found, error);

@@ -46,10 +46,33 @@ void tn_cursor_free(tn_cursor *cursor)
     free(cursor);
 }
 
+/* Where trays are not listed: does a kept plan follow the trays of a class? */
+typedef struct following {
+    const tn_library *library;
+    const uint32_t *next; /* of the state */
+    uint32_t left;
+} following;
+
+static bool is_followed(void *context, uint32_t class)
+{
+    const following *f = context;
+    return tn_library_alive(f->library, f->left, f->next[f->library->kept->column[class]]);
+}
+
+static tn_tray followed_tray(const tn_cursor *cursor, uint32_t i, tn_tray from)
+{
+    const tn_library *library = cursor->library;
+    following f = {library, library->kept->delta + (size_t)cursor->states[i] * library->kept->columns,
+                   cursor->length - 1 - i};
+    return tn_labelling_next(tn_kinds_of(&library->classes->kinds), from, is_followed, &f);
+}
+
 /* The first tray at place i, from `tray` on, after which a kept plan follows; false where there is none. */
 static bool set_tray(tn_cursor *cursor, uint32_t i, tn_tray tray)
 {
     const tn_library *library = cursor->library;
+    if (library->schema->legal)
+        tray = followed_tray(cursor, i, tray);
     while (tray < library->schema->tray_count) {
         uint32_t state = tn_library_step(library, cursor->states[i], tray);
         if (!tn_library_alive(library, cursor->length - 1 - i, state)) {

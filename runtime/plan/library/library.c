@@ -230,7 +230,7 @@ static bool accepts(const tn_library *library, const tn_dfa *dfa, const tn_tray 
 {
     uint32_t state = 0;
     for (size_t i = 0; i < length; i++)
-        state = tn_dfa_read(dfa, state, library->classes->of_tray[trays[i]]);
+        state = tn_dfa_read(dfa, state, tn_class_of(library->classes, trays[i]));
     return dfa->accept[state];
 }
 

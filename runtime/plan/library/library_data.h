@@ -75,7 +75,7 @@ struct tn_library {
     unsigned threads;
     tn_plan_memory *memory; /* or NULL */
     mpz_t *generated;       /* [max + 1]: by length */
-    uint32_t *tray_column;  /* [trays]: column of `kept` */
+    uint32_t *tray_column;  /* [trays]: column of `kept`; NULL, and so the next, where trays are not listed */
     tn_tray *run_end;       /* [trays]: the next tray of another column, or the number of trays */
     tn_count_row *rows;     /* [max + 1]: kept plans by trays to come */
     double *nearly;         /* [max + 1][states]: the rows, nearly (tn_nearly) */
@@ -84,7 +84,7 @@ struct tn_library {
     mpz_t *before;        /* [max + 2]: kept plans of the lengths min..length - 1, so the first rank of a length */
     uint32_t stride;      /* trays between the marks of `passed` */
     uint32_t *passed;     /* [trays / stride + 1][columns]: trays of a column before tray mark * stride */
-    uint64_t *hash_room;  /* of columns + 2 states, used under late->lock */
+    uint64_t *hash_room;  /* for tn_library_hash, used under late->lock */
     uint64_t leanings[2]; /* a hash of its weights and preferences, if it has any */
     tn_library_late *late;
 };
@@ -96,7 +96,9 @@ static inline bool tn_library_alive(const tn_library *library, uint32_t left, ui
 
 static inline uint32_t tn_library_step(const tn_library *library, uint32_t state, tn_tray tray)
 {
-    return library->kept->delta[(size_t)state * library->kept->columns + library->tray_column[tray]];
+    uint32_t column =
+        library->tray_column ? library->tray_column[tray] : library->kept->column[tn_class_of(library->classes, tray)];
+    return library->kept->delta[(size_t)state * library->kept->columns + column];
 }
 
 /* A count divided by 2^(64 limbs), nearly: at most 1 for a count of so many limbs. Only ever guides exact arithmetic.
@@ -123,6 +125,9 @@ static inline tn_dfa_operation tn_library_keeping(const tn_library *library, siz
 {
     return tn_library_prunes(library, i) ? TN_DFA_MINUS : TN_DFA_AND;
 }
+
+/* How many words hash_room has. */
+uint64_t tn_library_hash_words(const tn_library *library);
 
 /* Finds the hash of the library's weights and preferences. */
 tn_status tn_library_hash_leanings(tn_library *library, tn_error *error);

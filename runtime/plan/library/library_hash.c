@@ -6,8 +6,8 @@
  * random-looking points modulo 2^61 - 1 is found like a count, over any automaton of the library: neither the wording
  * nor the order of the rules shows, nor how the automaton was built. Weights, of libraries that have any, go in as they
  * are written: in any order, but other words for the same trays are another weight. So does, of trays that stand for
- * plans, for how many each does. All numbers go into the hash in
- * little-endian. */
+ * plans, for how many each does. Where trays are not listed, a tray's variable is a product of one for each of its
+ * values, which a diagram adds up for many trays at once. All numbers go into the hash in little-endian. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -53,6 +53,11 @@ static void add_schema(XXH3_state_t *hash, const tn_schema *schema)
         }
     }
     add_number(hash, schema->tray_count);
+    if (schema->legal) {
+        for (size_t i = 0; i < schema->legal->nodes.words_used; i++)
+            add_number(hash, schema->legal->nodes.words[i]);
+        return;
+    }
     XXH3_128bits_update(hash, schema->tray_values, (size_t)schema->tray_count * schema->field_count);
     for (tn_tray t = 0; tn_schema_of_plans(schema) && t < schema->tray_count; t++)
         add_text(hash, schema->module, schema->module->TRAY_PLANS_records[schema->tray_plans[t]].plans);
@@ -67,10 +72,68 @@ static uint64_t reduce(wide number)
     return sum >= PRIME ? sum - PRIME : sum;
 }
 
+/* Where trays are not listed: values behind those of add_plans, one for each label below each node, and one for each
+ * letter. */
+static uint64_t *class_room(const tn_library *library)
+{
+    return library->hash_room + library->kept->columns + 2 * (uint64_t)library->kept->states;
+}
+
+uint64_t tn_library_hash_words(const tn_library *library)
+{
+    uint64_t words = library->kept->columns + 2 * (uint64_t)library->kept->states + 1;
+    if (!library->schema->legal)
+        return words;
+    const tn_labelling *kinds = tn_kinds_of(&library->classes->kinds);
+    return words + kinds->below_first[kinds->nodes.count] + kinds->labels;
+}
+
+/* Adds to each letter's sum what stands below a value: `variable` times what is below what follows it. */
+static void weigh_below(const tn_labelling *kinds, const uint64_t *below, uint32_t follow, bool last, uint64_t variable,
+                        uint64_t *sums)
+{
+    if (last) {
+        sums[follow] = (sums[follow] + variable) % PRIME;
+        return;
+    }
+    for (size_t k = kinds->below_first[follow]; k < kinds->below_first[follow + 1]; k++) {
+        uint64_t *sum = &sums[kinds->below[k].label];
+        *sum = reduce((wide)below[k] * variable + *sum);
+    }
+}
+
+/* The same as weigh_columns, where trays are not listed. */
+static void weigh_classes(const tn_library *library, unsigned point, uint32_t left, uint64_t *weights)
+{
+    const tn_labelling *kinds = tn_kinds_of(&library->classes->kinds);
+    uint64_t *below = class_room(library), *sums = below + kinds->below_first[kinds->nodes.count];
+    memset(sums, 0, kinds->labels * sizeof *sums);
+    for (uint32_t n = 0; n < kinds->nodes.count; n++) {
+        const uint32_t *follow = tn_labelling_follow(kinds, n);
+        uint32_t field = follow[-1];
+        for (uint32_t v = 0; v < kinds->values[field]; v++)
+            if (follow[v] != TN_UNLABELLED)
+                weigh_below(kinds, below, follow[v], field + 1 == kinds->fields,
+                            tn_random64(point, left, (uint64_t)field << 32 | v) % PRIME, sums);
+        for (size_t k = kinds->below_first[n]; k < kinds->below_first[n + 1]; k++) {
+            below[k] = sums[kinds->below[k].label];
+            sums[kinds->below[k].label] = 0;
+        }
+    }
+    for (size_t k = kinds->below_first[kinds->root]; k < kinds->below_first[kinds->root + 1]; k++) {
+        uint64_t *weight = &weights[library->kept->column[kinds->below[k].label]];
+        *weight = (*weight + below[k]) % PRIME;
+    }
+}
+
 /* weights := the sum of the variables of each column's trays, with `left` trays to come. */
 static void weigh_columns(const tn_library *library, unsigned point, uint32_t left, uint64_t *weights)
 {
     memset(weights, 0, library->kept->columns * sizeof *weights);
+    if (library->schema->legal) {
+        weigh_classes(library, point, left, weights);
+        return;
+    }
     for (tn_tray t = 0; t < library->schema->tray_count; t++) {
         uint64_t *weight = &weights[library->tray_column[t]];
         *weight = (*weight + tn_random64(point, left, t) % PRIME) % PRIME;

@@ -40,7 +40,7 @@ tn_status tn_library_reletter(const tn_library *library, const tn_sparse *sparse
     }
     for (uint32_t c = 0; c < classes->count; c++) {
         tn_tray tray = classes->representative[c];
-        column[c] = copy->column[library->classes->of_tray[map ? map[tray] : tray]];
+        column[c] = copy->column[tn_class_of(library->classes, map ? map[tray] : tray)];
     }
     free(copy->column);
     copy->column = column;

@@ -71,6 +71,9 @@ static tn_status lower_clauses(tn_near_finder *finder, uint32_t max_states, tn_e
 tn_status tn_near_finder_new(const tn_schema *schema, uint32_t index, const tn_near_options *options,
                              tn_near_finder **finder, tn_error *error)
 {
+    tn_status status = tn_schema_listed(schema, "finding nearest plans goes", error);
+    if (status != TN_OK)
+        return status;
     tn_near_finder *made = calloc(1, sizeof *made);
     if (!made)
         return tn_fail_memory(error);
@@ -79,7 +82,7 @@ tn_status tn_near_finder_new(const tn_schema *schema, uint32_t index, const tn_n
     made->combine = options && options->combine ? options->combine : COMBINE_DEFAULT;
     made->patience = options && options->patience ? options->patience : PATIENCE_DEFAULT;
     uint32_t max_states = options && options->max_states ? options->max_states : TN_STATES_DEFAULT;
-    tn_status status = lower_clauses(made, max_states, error);
+    status = lower_clauses(made, max_states, error);
     if (status == TN_OK)
         status = tn_near_combine(made, error);
     if (status == TN_OK)

@@ -99,11 +99,61 @@ static void few_plans_before(const tn_library *library, const uint32_t *next, tn
     mpz_add_ui(sum, sum, (mp_limb_t)plans);
 }
 
+/* Where trays are not listed: a stretch of trays that goes by as a whole, or not. */
+typedef struct passing {
+    const tn_library *library;
+    const uint32_t *next; /* of the state */
+    uint32_t left;
+    uint32_t trays; /* before a tray: still to pass */
+    mpz_ptr sum;    /* plans that start in trays passed; to find a tray: in the stretch */
+    mpz_ptr rest;   /* to find a tray: its plan, counted from the trays that were not passed */
+} passing;
+
+static void add_stretch(const passing *p, const tn_label_count *counts, size_t count)
+{
+    const tn_count_row *row = &p->library->rows[p->left];
+    for (size_t i = 0; i < count; i++) {
+        uint32_t state = p->next[p->library->kept->column[counts[i].label]];
+        if (tn_library_alive(p->library, p->left, state))
+            tn_count_row_add(row, state, counts[i].count, p->sum);
+    }
+}
+
+static bool pass_trays(void *context, const tn_label_count *counts, size_t count)
+{
+    passing *p = context;
+    uint64_t trays = 0;
+    for (size_t i = 0; i < count; i++)
+        trays += counts[i].count;
+    if (trays > p->trays)
+        return false;
+    p->trays -= (uint32_t)trays;
+    add_stretch(p, counts, count);
+    return true;
+}
+
+static bool pass_plans(void *context, const tn_label_count *counts, size_t count)
+{
+    passing *p = context;
+    mpz_set_ui(p->sum, 0);
+    add_stretch(p, counts, count);
+    if (mpz_cmp(p->sum, p->rest) > 0)
+        return false;
+    mpz_sub(p->rest, p->rest, p->sum);
+    return true;
+}
+
 void tn_plans_before(const tn_library *library, uint32_t state, tn_tray tray, uint32_t left, mpz_t sum)
 {
     const tn_dfa *kept = library->kept;
     const tn_count_row *row = &library->rows[left];
     const uint32_t *next = kept->delta + (size_t)state * kept->columns;
+    if (library->schema->legal) {
+        passing p = {library, next, left, tray, sum, NULL};
+        mpz_set_ui(sum, 0);
+        tn_labelling_find(tn_kinds_of(&library->classes->kinds), pass_trays, &p);
+        return;
+    }
     if (row->limbs == 1) {
         few_plans_before(library, next, tray, left, sum);
         return;
@@ -178,6 +228,10 @@ static tn_tray find_tray(const tn_library *library, uint32_t state, uint32_t lef
 {
     const uint32_t *next = library->kept->delta + (size_t)state * library->kept->columns;
     const tn_count_row *row = &library->rows[left];
+    if (library->schema->legal) {
+        passing p = {library, next, left, 0, sum, rest};
+        return tn_labelling_find(tn_kinds_of(&library->classes->kinds), pass_plans, &p);
+    }
     tn_tray tray = guess_tray(library, next, left, rest);
     tn_plans_before(library, state, tray, left, sum);
     while (mpz_cmp(sum, rest) > 0) {

@@ -93,7 +93,7 @@ static tn_status make_rows(tn_library *library, tn_error *error)
     library->rows = calloc(lengths, sizeof *library->rows);
     library->alive = calloc(tn_size_of(lengths, library->alive_words), sizeof *library->alive);
     library->nearly = calloc(tn_size_of(lengths, states), sizeof *library->nearly);
-    library->hash_room = tn_array_new(library->kept->columns + 2 * (uint64_t)states + 1, sizeof *library->hash_room);
+    library->hash_room = tn_array_new(tn_library_hash_words(library), sizeof *library->hash_room);
     if (!library->hash_room || !library->rows || !library->alive || !library->nearly)
         return tn_fail_memory(error);
     tn_status status = tn_column_weights(library->classes->size, library->classes->count, library->kept->column,
@@ -152,7 +152,7 @@ static tn_status make_totals(tn_library *library, tn_error *error)
                             library->schema->module->watch, error);
 }
 
-/* Marks how many trays of each column have passed, every so many trays. */
+/* Of trays that are listed: marks how many trays of each column have passed, every so many trays. */
 static tn_status make_passed(tn_library *library, tn_error *error)
 {
     uint32_t trays = library->schema->tray_count, columns = library->kept->columns;
@@ -196,9 +196,9 @@ tn_status tn_library_tables(tn_library *library, tn_error *error)
     tn_status status = make_rows(library, error);
     if (status == TN_OK)
         status = make_totals(library, error);
-    if (status == TN_OK)
+    if (status == TN_OK && !library->schema->legal)
         status = make_passed(library, error);
-    if (status == TN_OK)
+    if (status == TN_OK && !library->schema->legal)
         status = make_runs(library, error);
     return status;
 }

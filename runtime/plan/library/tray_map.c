@@ -111,6 +111,12 @@ static tn_status map_one_way(const tn_schema *from, const tn_schema *to, tn_tray
 
 tn_status tn_tray_map(const tn_schema *from, const tn_schema *to, tn_tray **out, tn_error *error)
 {
+    static const char what[] = "comparing libraries goes";
+    tn_status listed = tn_schema_listed(from, what, error);
+    if (listed == TN_OK)
+        listed = tn_schema_listed(to, what, error);
+    if (listed != TN_OK)
+        return listed;
     tn_tray *map = calloc((size_t)from->tray_count + 1, sizeof *map);
     tn_tray *back = calloc((size_t)to->tray_count + 1, sizeof *back);
     tn_status status = map && back ? map_one_way(from, to, map, error) : tn_fail_memory(error);

@@ -58,10 +58,10 @@ static void copy_plans(tn_lanes *lanes, const tn_row_map *map, const tn_tray *tr
         uint32_t *rows = lanes->rows + k * lanes->stride;
         const tn_tray *plan = trays + starts[k];
         size_t length = starts[k + 1] - starts[k];
-        if (!map->row_of_tray && length > 0)
+        if (!map->classes && length > 0)
             memcpy(rows, plan, length * sizeof *rows);
-        for (size_t i = 0; map->row_of_tray && i < length; i++)
-            rows[i] = map->row_of_tray[plan[i]];
+        for (size_t i = 0; map->classes && i < length; i++)
+            rows[i] = tn_class_of(map->classes, plan[i]);
         for (size_t i = length; i < lanes->longest; i++)
             rows[i] = map->rows;
     }
@@ -73,7 +73,7 @@ static bool fill_one(tn_lanes *lanes, const tn_row_map *map, const tn_tray *tray
     if (!reserve(lanes, length))
         return false;
     for (size_t i = 0; i < length; i++)
-        lanes->rows[i] = map->row_of_tray ? map->row_of_tray[trays[i]] : trays[i];
+        lanes->rows[i] = map->classes ? tn_class_of(map->classes, trays[i]) : trays[i];
     lanes->rows[length] = map->rows; /* where an odd number of trays is walked as an even one */
     return true;
 }
@@ -93,12 +93,12 @@ bool tn_lanes_fill(tn_lanes *lanes, const tn_row_map *map, const tn_plan_array *
     if (!reserve(lanes, longest))
         return false;
 #if defined(__x86_64__)
-    if (lanes->masked && !map->row_of_tray) {
+    if (lanes->masked && !map->classes) {
         copy_masked(lanes, plans->trays, starts, map->rows);
         return true;
     }
 #endif
-    if (longest <= TN_LANES_CHUNK && !map->row_of_tray && starts[TN_LANES] + TN_LANES_CHUNK <= last)
+    if (longest <= TN_LANES_CHUNK && !map->classes && starts[TN_LANES] + TN_LANES_CHUNK <= last)
         copy_chunks(lanes, plans->trays, starts, map->rows);
     else
         copy_plans(lanes, map, plans->trays, starts);

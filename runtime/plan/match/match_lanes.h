@@ -9,7 +9,7 @@
 #define TARTAN_PLAN_MATCH_MATCH_LANES_H
 
 #include "runtime/automata/dfa.h"
-#include "runtime/plan/schema/schema.h"
+#include "runtime/plan/schema/classes.h"
 
 #define TN_LANES 8
 #define TN_LANES_CHUNK 16 /* trays copied at a time */
@@ -37,9 +37,9 @@
 /* What the tables of the matchers have a row for: each tray, or where those are many, each class of trays. One row more
  * stands for padding. */
 typedef struct tn_row_map {
-    uint32_t rows;               /* without the padding, whose number this is */
-    const uint32_t *letter;      /* [rows]: the automata's letter */
-    const uint32_t *row_of_tray; /* NULL: a tray is its own row */
+    uint32_t rows;             /* without the padding, whose number this is */
+    const uint32_t *letter;    /* [rows]: the automata's letter */
+    const tn_classes *classes; /* a tray's row is its class; NULL: a tray is its own row */
 } tn_row_map;
 
 /* Owned by a matcher. `rows` has the plans' rows: lane k's are at rows + k * stride, `longest` of them are walked. */

@@ -74,7 +74,7 @@ static tn_status lower_rules(tn_rules *rules, tn_lowering *lowering, tn_matching
 static tn_status map_rows(tn_rules *rules, tn_error *error)
 {
     const tn_classes *classes = rules->classes;
-    if (rules->schema->tray_count <= TRAY_ROWS_MAX) {
+    if (classes->of_tray && rules->schema->tray_count <= TRAY_ROWS_MAX) {
         rules->map = (tn_row_map){.rows = rules->schema->tray_count, .letter = classes->of_tray};
         return TN_OK;
     }
@@ -83,7 +83,7 @@ static tn_status map_rows(tn_rules *rules, tn_error *error)
         return tn_fail_memory(error);
     for (uint32_t i = 0; i < classes->count; i++)
         rules->letters[i] = i;
-    rules->map = (tn_row_map){.rows = classes->count, .letter = rules->letters, .row_of_tray = classes->of_tray};
+    rules->map = (tn_row_map){.rows = classes->count, .letter = rules->letters, .classes = classes};
     return TN_OK;
 }
 
@@ -282,7 +282,7 @@ static tn_status walk_any(tn_matcher *matcher, const tn_plan_array *plans, uint8
 {
     const tn_rules *rules = matcher->rules;
     const tn_any *any = &rules->any;
-    bool glance = !rules->map.row_of_tray && any->sink != UINT16_MAX;
+    bool glance = !rules->map.classes && any->sink != UINT16_MAX;
     for (size_t i = 0; i < plans->count; i += TN_LANES) {
         uint8_t found[TN_LANES];
         size_t left = plans->count - i;

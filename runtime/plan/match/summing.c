@@ -181,11 +181,6 @@ bool tn_summing_is_local(const tn_module *module, uint32_t function, uint8_t *kn
 
 /* ---- making */
 
-static int64_t weight_of(const tn_sum_term *term, tn_tray tray)
-{
-    return term->weight ? term->weight[tray] : term->each;
-}
-
 /* In which phase a term's places are read. A reversed plan is read from its other end. */
 static uint32_t phase_of(const tn_sum_term *term, bool reversed)
 {
@@ -208,7 +203,7 @@ static void add_alone(const tn_sum *sum, uint32_t i, const tn_classes *classes, 
         alone->present[c] |= present;
     else
         alone->steps[(size_t)phase_of(term, reversed) * classes->count + c] +=
-            weight_of(term, classes->representative[c]);
+            tn_term_steps(term, classes->representative[c]);
 }
 
 /* What each class's tray adds by the terms that it decides alone. */
@@ -248,7 +243,7 @@ static bool number_weights(const tn_sum *sum, const tn_classes *classes, tn_dfa 
             if (i >= 3 && !parts[i - 3])
                 continue;
             int64_t steps = i < 3 ? alone->steps[(size_t)i * classes->count + c]
-                                  : weight_of(&sum->terms[i - 3], classes->representative[c]);
+                                  : tn_term_steps(&sum->terms[i - 3], classes->representative[c]);
             uint32_t weight = tn_number(&values, (uint64_t)steps);
             id = weight == UINT32_MAX ? weight : tn_number(&pairs, (uint64_t)id << 32 | weight);
         }
@@ -312,7 +307,7 @@ static tn_status add_terms(tn_summing *summing, const tn_sum *sum, const tn_clas
             return status;
         for (uint32_t c = 0; c < summing->join.columns; c++)
             if (c != summing->marker)
-                term->weight[c] = weight_of(&sum->terms[i], classes->representative[summing->join.letter[c]]);
+                term->weight[c] = tn_term_steps(&sum->terms[i], classes->representative[summing->join.letter[c]]);
     }
     return TN_OK;
 }

@@ -15,7 +15,7 @@ TN_RELATION_INLINE void run_tray(const tn_plan_vm *vm, uint64_t *relation, uint3
 {
     memset(relation, 0, (vm->length + 1) * words * sizeof *relation);
     const tn_mask_record *mask = vm->module->MASK_records + vm->module->SPEC_records[spec].mask_first;
-    for (size_t k = 0; k < vm->length; k++) {
+    for (size_t k = 0; !vm->schema->legal && k < vm->length; k++) {
         const uint64_t *bits = tn_tray_mask(vm->schema, tray_at(vm, reversed, k));
         uint64_t missing = 0;
         for (uint32_t w = 0; w < vm->schema->mask_words; w++)
@@ -23,6 +23,9 @@ TN_RELATION_INLINE void run_tray(const tn_plan_vm *vm, uint64_t *relation, uint3
         if (!missing)
             tn_relation_row_set(relation + k * words, k + 1);
     }
+    for (size_t k = 0; vm->schema->legal && k < vm->length; k++)
+        if (tn_spec_meets(vm->schema, spec, tray_at(vm, reversed, k)))
+            tn_relation_row_set(relation + k * words, k + 1);
 }
 
 /* relation := { [i, j) : the trays at i + t and j - 1 - t have the same value for all t }: those inside of [i + 1, j -

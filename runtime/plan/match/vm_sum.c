@@ -47,7 +47,7 @@ static int64_t count_place(const tn_compared *c, const tn_sum_term *term, size_t
                    : tn_relation_row_next(row, k + 1, c->vm->words);
     if (*end == TN_NO_BIT || *end > last)
         return 0;
-    return term->weight ? term->weight[c->vm->trays[c->reversed ? c->vm->length - 1 - k : k]] : term->each;
+    return tn_term_steps(term, c->vm->trays[c->reversed ? c->vm->length - 1 - k : k]);
 }
 
 /* Place k has a tray that is to be there: from now on it is the first one, and no more the one behind it. */
@@ -163,7 +163,7 @@ static int64_t between(const tn_plan_vm *vm, const tn_sum_term *gap, size_t i, s
 {
     int64_t steps = 0;
     for (; i < j; i++)
-        steps += gap->weight ? gap->weight[vm->trays[i]] : gap->each;
+        steps += tn_term_steps(gap, vm->trays[i]);
     return steps;
 }
 
@@ -230,7 +230,7 @@ static tn_status add_term(tn_plan_vm *vm, const tn_sum_term *term, int64_t *step
     for (size_t k = 0; k < vm->length; k++) {
         const uint64_t *row = relation + k * vm->words;
         if (term->kind == TN_SUM_SINGLES && tn_relation_row_has(row, k + 1))
-            *steps += term->weight ? term->weight[vm->trays[k]] : term->each;
+            *steps += tn_term_steps(term, vm->trays[k]);
         if (term->kind == TN_SUM_STARTS && tn_relation_row_next(row, k + 1, vm->words) != TN_NO_BIT)
             *steps += term->each;
         if (term->kind == TN_SUM_PRESENT && tn_relation_row_has(row, k + 1)) {

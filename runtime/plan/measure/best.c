@@ -495,47 +495,45 @@ static tn_status measure(tn_best *best, tn_error *error)
 
 static tn_status ensure(tn_best *best, uint32_t index, size_t rank, bool *there, tn_error *error);
 
-/* All trays of a place as candidates, each with its best completion. */
+/* The first tray of each letter as a candidate, with its best completion. Others of the letter follow it (succeed). */
 static tn_status open_place(tn_best *best, uint32_t index, tn_error *error)
 {
     uint32_t left = best->places[index].left, state = best->places[index].state;
-    uint32_t letters = tn_weighed_letters(best->weighed), trays = best->library->schema->tray_count;
-    path *by_letter = calloc((size_t)letters + 1, sizeof *by_letter);
-    bool *possible = calloc((size_t)letters + 1, sizeof *possible);
-    tn_status status = by_letter && possible ? TN_OK : tn_fail_memory(error);
+    uint32_t letters = tn_weighed_letters(best->weighed);
+    tn_status status = TN_OK;
     for (uint32_t l = 0; status == TN_OK && l < letters; l++) {
         uint32_t target, child;
         int64_t gain[TN_WEIGHED_MAX];
+        path first = {.tray = tn_weighed_first_tray(best->weighed, l)};
         status = tn_weighed_step(best->weighed, state, l, &target, gain, error);
         if (status != TN_OK || target == NONE || !tn_weighed_alive(best->weighed, left - 1, target))
             continue;
         status = place_of(best, left - 1, target, &child, error);
-        possible[l] = status == TN_OK && best->places[child].possible;
-        by_letter[l].child = child;
-        memcpy(by_letter[l].value, best->places[child].least, sizeof by_letter[l].value);
-        add_gain(best, by_letter[l].value, gain);
-    }
-    best->places[index].opened = true;
-    for (tn_tray t = 0; status == TN_OK && t < trays; t++) {
-        uint32_t l = tn_weighed_letter(best->weighed, t);
-        path added = by_letter[l];
-        added.tray = t;
-        if (possible[l] && !push(&best->places[index], added))
+        if (status != TN_OK || !best->places[child].possible)
+            continue;
+        first.child = child;
+        memcpy(first.value, best->places[child].least, sizeof first.value);
+        add_gain(best, first.value, gain);
+        if (!push(&best->places[index], first))
             status = tn_fail_memory(error);
     }
-    free(by_letter);
-    free(possible);
+    best->places[index].opened = true;
     return status;
 }
 
-/* Puts the successor of the last path found among the candidates: the same tray, the child's next completion. What the
- * tray adds is what the path has over its child. */
+/* Puts the successors of the last path found among the candidates: the next tray of its letter, which has the same
+ * completions; and the same tray with the child's next completion. What the tray adds is what the path has over its
+ * child. */
 static tn_status succeed(tn_best *best, uint32_t index, tn_error *error)
 {
     place *p = &best->places[index];
     path next = p->found[p->found_count - 1];
     bool there;
     p->pending = false;
+    path beside = next;
+    beside.tray = next.rank == 0 ? tn_weighed_next_tray(best->weighed, next.tray) : best->library->schema->tray_count;
+    if (beside.tray < best->library->schema->tray_count && !push(p, beside))
+        return tn_fail_memory(error);
     next.rank++;
     tn_status status = ensure(best, next.child, next.rank, &there, error);
     if (status != TN_OK || !there)

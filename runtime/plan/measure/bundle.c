@@ -62,6 +62,9 @@ static tn_status weigh(tn_bundle *b, const tn_bundle_measure *measures, tn_error
 static tn_status find_letters(tn_bundle *b, tn_error *error)
 {
     const tn_schema *schema = tn_library_schema(b->library);
+    tn_status status = tn_schema_listed(schema, "measuring plans by several measures goes", error);
+    if (status != TN_OK)
+        return status;
     b->letter_of = calloc((size_t)schema->tray_count + 1, sizeof *b->letter_of);
     if (!b->letter_of)
         return tn_fail_memory(error);

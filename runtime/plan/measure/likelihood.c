@@ -54,7 +54,7 @@ struct tn_likelihood {
 /* The trays of a class alone. */
 static mpz_srcptr mass_alone(const tn_likelihood *likelihood, tn_tray tray)
 {
-    return likelihood->alone[likelihood->classes->of_tray[tray]];
+    return likelihood->alone[tn_class_of(likelihood->classes, tray)];
 }
 
 /* What the plans come to that go on from a state with so many trays: times the denominators of weights that look
@@ -228,6 +228,9 @@ static tn_status make_weights(tn_likelihood *l, tn_error *error)
 static tn_status make_letters(tn_likelihood *l, tn_error *error)
 {
     uint32_t letters = tn_weighed_letters(l->weighed), trays = l->library->schema->tray_count;
+    tn_status status = tn_schema_listed(l->library->schema, "drawing plans by weights goes", error);
+    if (status != TN_OK)
+        return status;
     l->letter_first = calloc((size_t)letters + 2, sizeof *l->letter_first);
     l->trays = calloc((size_t)trays + 1, sizeof *l->trays);
     l->before = tn_integers_new(trays);

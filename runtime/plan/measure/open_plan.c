@@ -85,7 +85,9 @@ static tn_status find_fits(tn_open_pattern *p, const tn_open_plan *open, tn_erro
 tn_status tn_open_pattern_read(tn_open_pattern *p, const tn_schema *schema, const tn_open_plan *open, tn_error *error)
 {
     *p = (tn_open_pattern){.schema = schema};
-    tn_status status = read_pattern(p, open, error);
+    tn_status status = tn_schema_listed(schema, "completing an open plan goes", error);
+    if (status == TN_OK)
+        status = read_pattern(p, open, error);
     return status == TN_OK ? find_fits(p, open, error) : status;
 }
 

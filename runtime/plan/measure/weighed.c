@@ -68,7 +68,7 @@ static tn_status find_counts(gaps *g, const tn_classes *classes, tn_error *error
     if (!g->counts)
         return tn_fail_memory(error);
     for (uint32_t c = 0; c < classes->count; c++) {
-        int64_t steps = g->term->weight ? g->term->weight[classes->representative[c]] : g->term->each;
+        int64_t steps = tn_term_steps(g->term, classes->representative[c]);
         negative |= steps < 0;
         g->counts[c] = (uint64_t)llabs(steps);
         common = divisor(common, g->counts[c]);
@@ -292,7 +292,8 @@ struct tn_weighed {
     weight weights[TN_WEIGHED_MAX];
     tn_classes *classes; /* of what the measures tell apart */
     tn_lowering *lowering;
-    uint32_t *letter_of; /* [trays] */
+    uint32_t *letter_of; /* [trays]; NULL where trays are not listed: */
+    tn_kinds kinds;      /* letters as kinds */
     uint32_t letters;
     tn_tray *first; /* [letters] */
     uint64_t *size; /* [letters]: trays */
@@ -352,7 +353,7 @@ static tn_status make_weights(tn_weighed *w, const uint32_t *sums, tn_error *err
 }
 
 /* Letters: distinct pairs of the library's column and the measures' class. */
-static tn_status make_letters(tn_weighed *w, tn_error *error)
+static tn_status list_letters(tn_weighed *w, tn_error *error)
 {
     uint32_t trays = w->library->schema->tray_count;
     tn_numbering pairs = {0};
@@ -364,15 +365,46 @@ static tn_status make_letters(tn_weighed *w, tn_error *error)
     }
     w->letters = pairs.count;
     tn_numbering_clear(&pairs);
-    w->first = ok ? calloc((size_t)w->letters + 1, sizeof *w->first) : NULL;
-    w->size = ok ? calloc((size_t)w->letters + 1, sizeof *w->size) : NULL;
-    w->found = ok ? calloc((size_t)w->letters + 1, sizeof *w->found) : NULL;
-    if (!w->first || !w->size || !w->found)
-        return tn_fail_memory(error);
-    for (tn_tray t = trays; t-- > 0;) {
+    return ok ? TN_OK : tn_fail_memory(error);
+}
+
+/* The same where trays are not listed. */
+static tn_status split_letters(tn_weighed *w, tn_error *error)
+{
+    w->kinds.schema = w->library->schema;
+    tn_status status =
+        tn_kinds_by_kinds(&w->kinds, tn_kinds_of(&w->library->classes->kinds), w->library->kept->column, error);
+    if (status == TN_OK)
+        status = tn_kinds_by_kinds(&w->kinds, tn_kinds_of(&w->classes->kinds), NULL, error);
+    if (status == TN_OK)
+        w->letters = w->kinds.made->labels;
+    return status;
+}
+
+static void note_letters(tn_weighed *w)
+{
+    const tn_labelling *made = w->kinds.made;
+    for (tn_tray t = w->letter_of ? w->library->schema->tray_count : 0; t-- > 0;) {
         w->first[w->letter_of[t]] = t;
         w->size[w->letter_of[t]]++;
     }
+    for (uint32_t l = 0; made && l < w->letters; l++) {
+        w->first[l] = made->first[l];
+        w->size[l] = made->below[made->below_first[made->root] + l].count;
+    }
+}
+
+static tn_status make_letters(tn_weighed *w, tn_error *error)
+{
+    tn_status status = (w->library->schema->legal ? split_letters : list_letters)(w, error);
+    if (status != TN_OK)
+        return status;
+    w->first = calloc((size_t)w->letters + 1, sizeof *w->first);
+    w->size = calloc((size_t)w->letters + 1, sizeof *w->size);
+    w->found = calloc((size_t)w->letters + 1, sizeof *w->found);
+    if (!w->first || !w->size || !w->found)
+        return tn_fail_memory(error);
+    note_letters(w);
     return TN_OK;
 }
 
@@ -608,6 +640,7 @@ void tn_weighed_free(tn_weighed *w)
     tn_lowering_free(w->lowering);
     tn_classes_free(w->classes);
     free(w->letter_of);
+    tn_labelling_free(w->kinds.made);
     free(w->first);
     free(w->size);
     free(w->key.data);
@@ -695,7 +728,28 @@ int64_t tn_weighed_rest(const tn_weighed *w, uint32_t state, uint32_t measure)
 
 uint32_t tn_weighed_letter(const tn_weighed *w, tn_tray tray)
 {
-    return w->letter_of[tray];
+    return w->letter_of ? w->letter_of[tray] : tn_labelling_at(w->kinds.made, tray, NULL);
+}
+
+static bool is_letter(void *context, uint32_t letter)
+{
+    return letter == *(const uint32_t *)context;
+}
+
+tn_tray tn_weighed_next_tray(const tn_weighed *w, tn_tray tray)
+{
+    uint32_t trays = w->library->schema->tray_count, letter = tn_weighed_letter(w, tray);
+    if (!w->letter_of)
+        return tn_labelling_next(w->kinds.made, tray + 1, is_letter, &letter);
+    do
+        tray++;
+    while (tray < trays && w->letter_of[tray] != letter);
+    return tray;
+}
+
+tn_tray tn_weighed_first_tray(const tn_weighed *w, uint32_t letter)
+{
+    return w->first[letter];
 }
 
 uint32_t tn_weighed_letters(const tn_weighed *w)
@@ -739,7 +793,7 @@ tn_status tn_weighed_step(tn_weighed *w, uint32_t state, uint32_t letter, uint32
     memcpy(numbers, key + 1, (size - 1) * sizeof *numbers);
     tn_status status = TN_OK;
     for (uint32_t k = 0; status == TN_OK && k < w->count; k++)
-        status = step_measure(w, &w->weights[k], w->classes->of_tray[tray], &numbers[k], &gain[k], error);
+        status = step_measure(w, &w->weights[k], tn_class_of(w->classes, tray), &numbers[k], &gain[k], error);
     if (status != TN_OK)
         return status;
     w->next.size = 0;

@@ -66,6 +66,10 @@ int64_t tn_weighed_rest(const tn_weighed *weighed, uint32_t state, uint32_t sum)
 uint32_t tn_weighed_letter(const tn_weighed *weighed, tn_tray tray);
 uint32_t tn_weighed_letters(const tn_weighed *weighed);
 
+/* The first tray of a letter, and of a tray the next one that has its letter: the number of trays if there is none. */
+tn_tray tn_weighed_first_tray(const tn_weighed *weighed, uint32_t letter);
+tn_tray tn_weighed_next_tray(const tn_weighed *weighed, tn_tray tray);
+
 /* Where a state leads by a letter: the target (UINT32_MAX: no kept plan follows) and what is added. */
 tn_status tn_weighed_step(tn_weighed *weighed, uint32_t state, uint32_t letter, uint32_t *target, int64_t *gain,
                           tn_error *error);

@@ -114,6 +114,31 @@ static bool split_by_weight(tn_class_finder *finder, const int64_t *weight)
     return ok;
 }
 
+/* The same of kinds: those that count the same stay together. */
+static tn_status split_by_steps(tn_class_finder *finder, const tn_sum_term *term, tn_error *error)
+{
+    const tn_labelling *kinds = tn_kinds_of(&term->kinds);
+    uint32_t *numbers = malloc((kinds->labels + 1u) * sizeof *numbers);
+    tn_numbering values = {0};
+    bool ok = numbers != NULL;
+    for (uint32_t k = 0; ok && k < kinds->labels; k++) {
+        numbers[k] = tn_number(&values, (uint64_t)term->weight[k]);
+        ok = numbers[k] != UINT32_MAX;
+    }
+    tn_status status = ok ? tn_kinds_by_kinds(&finder->classes->kinds, kinds, numbers, error) : tn_fail_memory(error);
+    tn_numbering_clear(&values);
+    free(numbers);
+    return status;
+}
+
+static tn_status visit_weight(tn_class_finder *finder, const tn_sum_term *term, tn_error *error)
+{
+    if (finder->schema->legal)
+        return split_by_steps(finder, term, error);
+    tn_status status = look_at_trays(finder, error);
+    return status != TN_OK || split_by_weight(finder, term->weight) ? status : tn_fail_memory(error);
+}
+
 static tn_status push_function(tn_class_finder *finder, uint32_t function, tn_error *error)
 {
     if (finder->seen_function[function])
@@ -135,9 +160,7 @@ static tn_status visit_sum(tn_class_finder *finder, uint32_t index, tn_error *er
         if (status == TN_OK && sum->terms[i].other != TN_NO_RECORD)
             status = push_function(finder, sum->terms[i].other, error);
         if (status == TN_OK && sum->terms[i].weight)
-            status = look_at_trays(finder, error);
-        if (status == TN_OK && sum->terms[i].weight && !split_by_weight(finder, sum->terms[i].weight))
-            status = tn_fail_memory(error);
+            status = visit_weight(finder, &sum->terms[i], error);
     }
     tn_sum_free(sum);
     return status;
@@ -152,6 +175,8 @@ static tn_status visit_field(tn_class_finder *finder, const tn_instruction *inst
     if (finder->seen_field[first] & seen)
         return TN_OK;
     finder->seen_field[first] |= seen;
+    if (finder->schema->legal)
+        return (values ? tn_kinds_by_values : tn_kinds_by_lengths)(&finder->classes->kinds, field, error);
     tn_status status = look_at_trays(finder, error);
     if (status != TN_OK)
         return status;
@@ -225,6 +250,8 @@ static tn_status visit(tn_class_finder *finder, const tn_instruction *instructio
         if (finder->seen_spec[first])
             return TN_OK;
         finder->seen_spec[first] = 1;
+        if (finder->schema->legal)
+            return tn_kinds_by_spec(&finder->classes->kinds, first, error);
         tn_status status = look_at_trays(finder, error);
         return status != TN_OK || split_by_spec(finder, first) ? status : tn_fail_memory(error);
     }
@@ -252,10 +279,20 @@ static tn_status find(tn_class_finder *finder, tn_error *error)
 
 static bool finish(tn_classes *classes)
 {
+    if (!classes->of_tray)
+        classes->count = tn_kinds_of(&classes->kinds)->labels;
     classes->representative = calloc((size_t)classes->count + 1, sizeof *classes->representative);
     classes->size = calloc((size_t)classes->count + 1, sizeof *classes->size);
     if (!classes->representative || !classes->size)
         return false;
+    if (!classes->of_tray) {
+        const tn_labelling *kinds = tn_kinds_of(&classes->kinds);
+        const tn_label_count *all = kinds->below + kinds->below_first[kinds->root];
+        memcpy(classes->representative, kinds->first, kinds->labels * sizeof *kinds->first);
+        for (uint32_t c = 0; c < kinds->labels; c++)
+            classes->size[c] = all[c].count;
+        return true;
+    }
     for (tn_tray t = classes->schema->tray_count; t-- > 0;) {
         classes->representative[classes->of_tray[t]] = t;
         classes->size[classes->of_tray[t]]++;
@@ -290,14 +327,17 @@ tn_status tn_classes_with_sums(const tn_schema *schema, const uint32_t *function
     if (!classes)
         return tn_fail_memory(error);
     classes->schema = schema;
+    classes->kinds.schema = schema;
     classes->count = schema->tray_count > 0;
-    classes->of_tray = calloc((size_t)schema->tray_count + 1, sizeof *classes->of_tray);
+    if (!schema->legal)
+        classes->of_tray = calloc((size_t)schema->tray_count + 1, sizeof *classes->of_tray);
     tn_class_finder finder = {.schema = schema, .classes = classes};
     finder.seen_function = calloc(module->FUNCTION_count + 1, 1);
     finder.seen_spec = calloc(module->SPEC_count + 1, 1);
     finder.seen_field = calloc(module->FIELD_count + 1, 1);
     finder.seen_sum = calloc(module->SUM_count + 1, 1);
-    bool ok = classes->of_tray && finder.seen_function && finder.seen_spec && finder.seen_field && finder.seen_sum;
+    bool ok = (classes->of_tray || schema->legal) && finder.seen_function && finder.seen_spec && finder.seen_field &&
+              finder.seen_sum;
     tn_status status = ok ? TN_OK : tn_fail_memory(error);
     for (size_t i = 0; status == TN_OK && i < count; i++)
         status = push_function(&finder, functions[i], error);
@@ -324,7 +364,12 @@ tn_status tn_classes_refine(tn_classes *classes, const tn_classes *other, tn_err
 {
     tn_numbering pairs = {0};
     bool ok = true;
-    for (tn_tray t = 0; ok && t < classes->schema->tray_count; t++) {
+    if (!classes->of_tray) {
+        tn_status status = tn_kinds_by_kinds(&classes->kinds, tn_kinds_of(&other->kinds), NULL, error);
+        if (status != TN_OK)
+            return status;
+    }
+    for (tn_tray t = 0; ok && classes->of_tray && t < classes->schema->tray_count; t++) {
         uint32_t pair = tn_number(&pairs, (uint64_t)classes->of_tray[t] << 32 | other->of_tray[t]);
         ok = pair != UINT32_MAX;
         classes->of_tray[t] = pair;
@@ -342,6 +387,7 @@ void tn_classes_free(tn_classes *classes)
     if (!classes)
         return;
     free(classes->of_tray);
+    tn_labelling_free(classes->kinds.made);
     free(classes->representative);
     free(classes->size);
     free(classes);

@@ -3,17 +3,24 @@
 #ifndef TARTAN_PLAN_SCHEMA_CLASSES_H
 #define TARTAN_PLAN_SCHEMA_CLASSES_H
 
+#include "runtime/plan/schema/kinds.h"
 #include "runtime/plan/schema/projection.h"
 
 typedef struct tn_classes {
     const tn_schema *schema;
     uint32_t count;
-    uint32_t *of_tray;        /* [trays] */
+    uint32_t *of_tray;        /* [trays]; NULL where the schema's trays are not listed: */
+    tn_kinds kinds;           /* the classes as kinds */
     uint32_t *representative; /* [count]: a class's first tray */
     uint32_t *size;           /* [count]: trays in the class */
 } tn_classes;
 
 #define TN_CLASS_LOOKS_MAX (UINT64_C(1) << 33) /* comparisons of a tray with a specifier: half a minute */
+
+static inline uint32_t tn_class_of(const tn_classes *classes, tn_tray tray)
+{
+    return classes->of_tray ? classes->of_tray[tray] : tn_labelling_at(tn_kinds_of(&classes->kinds), tray, NULL);
+}
 
 /* The classes that the functions given, and those that they call, need. Free with tn_classes_free.
  * TN_LIMIT (E0803) where trays times specifiers pass TN_CLASS_LOOKS_MAX. */

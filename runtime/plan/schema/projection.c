@@ -49,11 +49,17 @@ tn_status tn_projection_new(const tn_schema *schema, const tn_instruction *image
         return tn_fail_memory(error);
     projection->schema = schema;
     projection->library = &module->LIBRARY_records[image->first];
-    projection->begin = calloc((size_t)schema->tray_count + 1, sizeof *projection->begin);
-    projection->end = calloc((size_t)schema->tray_count + 1, sizeof *projection->end);
-    tn_status status = projection->begin && projection->end ? TN_OK : tn_fail_memory(error);
+    static const char what[] = "a library onto another schema goes";
+    tn_status status = tn_schema_listed(schema, what, error);
     if (status == TN_OK)
         status = tn_schema_new(module, projection->library->schema, 0, &projection->newer, error);
+    if (status == TN_OK)
+        status = tn_schema_listed(projection->newer, what, error);
+    if (status == TN_OK) {
+        projection->begin = calloc((size_t)schema->tray_count + 1, sizeof *projection->begin);
+        projection->end = calloc((size_t)schema->tray_count + 1, sizeof *projection->end);
+        status = projection->begin && projection->end ? TN_OK : tn_fail_memory(error);
+    }
     if (status != TN_OK) {
         tn_projection_free(projection);
         return status;

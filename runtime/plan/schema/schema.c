@@ -1,6 +1,7 @@
 /* Makes a schema ready: its legal trays and their numbers. */
 #include "runtime/plan/schema/schema.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -46,13 +47,31 @@ static uint32_t forbidding_spec(const tn_schema *schema, const uint64_t *mask)
     return UINT32_MAX;
 }
 
-static tn_status too_many(const tn_schema *schema, uint64_t limit, tn_error *error)
+static tn_status too_many(const tn_schema *schema, uint64_t trays, tn_error *error)
 {
-    tn_fail(error, TN_LIMIT, E_TOO_MANY_TRAYS, "schema %s has more legal trays than the limit of %llu",
-            tn_text(schema->module, schema->record->name), (unsigned long long)limit);
+    const char *name = tn_text(schema->module, schema->record->name);
+    if (trays < UINT64_MAX)
+        tn_fail(error, TN_LIMIT, E_TOO_MANY_TRAYS, "schema %s has %llu legal trays, more than the limit of %u", name,
+                (unsigned long long)trays, TN_SCHEMA_TRAYS_MAX);
+    else
+        tn_fail(error, TN_LIMIT, E_TOO_MANY_TRAYS, "schema %s has more legal trays than the limit of %u", name,
+                TN_SCHEMA_TRAYS_MAX);
     tn_error_help(error,
                   "name fewer values, or fewer fields, or say by `only` or `forbid` which trays there are: every "
-                  "legal tray has a number and a place in a table");
+                  "legal tray has a number");
+    return TN_LIMIT;
+}
+
+tn_status tn_schema_listed(const tn_schema *schema, const char *what, tn_error *error)
+{
+    if (!schema->legal)
+        return TN_OK;
+    tn_fail(error, TN_LIMIT, E_TOO_MANY_TRAYS, "%s through the trays one by one, and schema %s has %u legal trays",
+            what, tn_text(schema->module, schema->record->name), schema->tray_count);
+    tn_error_help(error,
+                  "trays are listed up to %u: name fewer values, or fewer fields, or say by `only` or `forbid` "
+                  "which trays there are",
+                  TN_SCHEMA_TRAYS_DEFAULT);
     return TN_LIMIT;
 }
 
@@ -101,10 +120,10 @@ static uint64_t bytes_of_tray(const tn_schema *schema)
 }
 
 /* Can all combinations be gone through one by one, and have a place in a table? */
-static bool is_small(const tn_schema *schema, uint64_t max_trays)
+static bool is_small(const tn_schema *schema, uint64_t max_listed)
 {
     uint64_t codes = schema->code_count;
-    return codes <= max_trays && bytes_of_tray(schema) * codes <= TN_SCHEMA_BYTES_MAX &&
+    return codes <= max_listed && bytes_of_tray(schema) * codes <= TN_SCHEMA_BYTES_MAX &&
            codes * ((uint64_t)schema->record->forbid_count * schema->mask_words) <= TN_SCHEMA_CHECKS_MAX;
 }
 
@@ -180,22 +199,17 @@ static bool add_tray(void *context, const uint8_t *values)
     return true;
 }
 
-static tn_status number_legal(tn_schema *schema, tn_choice_diagram *choices, uint64_t max_trays, tn_error *error)
+static tn_status takes_too_long(const tn_schema *schema, tn_error *error)
 {
-    tn_choice_set legal = legal_trays(schema, choices);
-    if (legal == TN_CHOICE_LOST && !tn_choices_full(choices))
-        return tn_fail_memory(error);
-    if (legal == TN_CHOICE_LOST) {
-        tn_fail(error, TN_LIMIT, E_TOO_MANY_TRAYS, "which trays of schema %s are legal takes too long to find out",
-                tn_text(schema->module, schema->record->name));
-        tn_error_help(error, "name fewer values, or fewer fields, or forbid trays by fewer fields at once");
-        return TN_LIMIT;
-    }
-    uint64_t trays, room = TN_SCHEMA_BYTES_MAX / bytes_of_tray(schema);
-    if (!tn_choices_count(choices, legal, &trays))
-        return tn_fail_memory(error);
-    if (trays > max_trays || trays > room)
-        return too_many(schema, max_trays < room ? max_trays : room, error);
+    tn_fail(error, TN_LIMIT, E_TOO_MANY_TRAYS, "which trays of schema %s are legal takes too long to find out",
+            tn_text(schema->module, schema->record->name));
+    tn_error_help(error, "name fewer values, or fewer fields, or forbid trays by fewer fields at once");
+    return TN_LIMIT;
+}
+
+static tn_status list_legal(tn_schema *schema, const tn_choice_diagram *choices, tn_choice_set legal, uint64_t trays,
+                            tn_error *error)
+{
     schema->tray_values = malloc((size_t)trays * schema->field_count + 1);
     schema->tray_masks = malloc(((size_t)trays * schema->mask_words + 1) * sizeof *schema->tray_masks);
     if (!schema->tray_values || !schema->tray_masks)
@@ -204,13 +218,37 @@ static tn_status number_legal(tn_schema *schema, tn_choice_diagram *choices, uin
     return TN_OK;
 }
 
-static tn_status make_many(tn_schema *schema, uint64_t max_trays, tn_error *error)
+static tn_status keep_legal(tn_schema *schema, const tn_choice_diagram *choices, tn_choice_set legal, tn_error *error)
+{
+    tn_status status = tn_labelling_of_set(choices, legal, &schema->legal);
+    if (status != TN_OK)
+        return status == TN_MEMORY ? tn_fail_memory(error) : takes_too_long(schema, error);
+    schema->tray_count = schema->legal->count;
+    return TN_OK;
+}
+
+static tn_status number_legal(tn_schema *schema, tn_choice_diagram *choices, uint64_t max_listed, tn_error *error)
+{
+    tn_choice_set legal = legal_trays(schema, choices);
+    if (legal == TN_CHOICE_LOST)
+        return tn_choices_full(choices) ? takes_too_long(schema, error) : tn_fail_memory(error);
+    uint64_t trays;
+    if (!tn_choices_count(choices, legal, &trays))
+        return tn_fail_memory(error);
+    if (trays > TN_SCHEMA_TRAYS_MAX)
+        return too_many(schema, trays, error);
+    if (trays <= max_listed && trays <= TN_SCHEMA_BYTES_MAX / bytes_of_tray(schema))
+        return list_legal(schema, choices, legal, trays, error);
+    return keep_legal(schema, choices, legal, error);
+}
+
+static tn_status make_many(tn_schema *schema, uint64_t max_listed, tn_error *error)
 {
     uint32_t counts[TN_FIELDS_MAX];
     for (uint32_t i = 0; i < schema->field_count; i++)
         counts[i] = schema->fields[i].value_count;
     tn_choice_diagram *choices = tn_choices_new(counts, schema->field_count, TN_CHOICES_ROOM);
-    tn_status status = choices ? number_legal(schema, choices, max_trays, error) : tn_fail_memory(error);
+    tn_status status = choices ? number_legal(schema, choices, max_listed, error) : tn_fail_memory(error);
     tn_choices_free(choices);
     return status;
 }
@@ -222,6 +260,9 @@ static tn_status find_tray_plans(tn_schema *schema, tn_error *error)
 {
     uint32_t first = schema->record->tray_plans_first, count = schema->record->tray_plans_count, at = 0;
     uint64_t looks = 0;
+    tn_status status = tn_schema_listed(schema, "a schema of a library goes", error);
+    if (status != TN_OK)
+        return status;
     schema->tray_plans = malloc(((size_t)schema->tray_count + 1) * sizeof *schema->tray_plans);
     if (!schema->tray_plans)
         return tn_fail_memory(error);
@@ -233,7 +274,7 @@ static tn_status find_tray_plans(tn_schema *schema, tn_error *error)
         }
         looks += tried;
         if (looks > TN_SCHEMA_CHECKS_MAX)
-            return too_many(schema, tray, error);
+            return takes_too_long(schema, error);
         if (tried == count)
             return tn_fail(error, TN_INVALID, E_REFUSED_MODULE, "a tray of schema %s stands for no plan",
                            tn_text(schema->module, schema->record->name));
@@ -242,13 +283,13 @@ static tn_status find_tray_plans(tn_schema *schema, tn_error *error)
     return TN_OK;
 }
 
-tn_status tn_schema_new(const tn_module *module, uint32_t index, uint64_t max_trays, tn_schema **out, tn_error *error)
+tn_status tn_schema_new(const tn_module *module, uint32_t index, uint64_t max_listed, tn_schema **out, tn_error *error)
 {
     *out = NULL;
-    if (max_trays == 0)
-        max_trays = TN_SCHEMA_TRAYS_DEFAULT;
-    if (max_trays > TN_NO_TRAY)
-        max_trays = TN_NO_TRAY;
+    if (max_listed == 0)
+        max_listed = TN_SCHEMA_TRAYS_DEFAULT;
+    if (max_listed > TN_SCHEMA_TRAYS_MAX)
+        max_listed = TN_SCHEMA_TRAYS_MAX;
     tn_schema *schema = calloc(1, sizeof *schema);
     if (!schema)
         return tn_fail_memory(error);
@@ -261,7 +302,7 @@ tn_status tn_schema_new(const tn_module *module, uint32_t index, uint64_t max_tr
     if (status == TN_OK) {
         count_codes(schema);
         schema->values = schema->field_count > 0 ? module->VALUE_records + schema->fields[0].value_first : NULL;
-        status = is_small(schema, max_trays) ? make_few(schema, error) : make_many(schema, max_trays, error);
+        status = is_small(schema, max_listed) ? make_few(schema, error) : make_many(schema, max_listed, error);
     }
     if (status == TN_OK && schema->tray_count == 0)
         status = forbids_all(schema, error);
@@ -280,11 +321,19 @@ void tn_schema_free(tn_schema *schema)
     if (!schema)
         return;
     free(schema->value_start);
+    tn_labelling_free(schema->legal);
     free(schema->tray_values);
     free(schema->tray_masks);
     free(schema->tray_of_code);
     free(schema->tray_plans);
     free(schema);
+}
+
+uint32_t tn_tray_value_below(const tn_schema *schema, tn_tray tray, uint32_t field)
+{
+    uint8_t values[TN_FIELDS_MAX];
+    tn_labelling_at(schema->legal, tray, values);
+    return values[field];
 }
 
 /* Trays are in the order of their values. */
@@ -306,6 +355,8 @@ static tn_tray look_up(const tn_schema *schema, const uint8_t *values)
 
 tn_tray tn_schema_tray(const tn_schema *schema, const uint8_t *values)
 {
+    if (schema->legal)
+        return tn_labelling_number(schema->legal, values);
     if (!schema->tray_of_code)
         return look_up(schema, values);
     uint64_t code = 0;
@@ -314,16 +365,21 @@ tn_tray tn_schema_tray(const tn_schema *schema, const uint8_t *values)
     return schema->tray_of_code[code];
 }
 
+static bool values_within(const tn_schema *schema, const uint8_t *values, uint32_t spec)
+{
+    for (uint32_t field = 0; field < schema->field_count; field++) {
+        uint32_t bit = schema->value_start[field] + values[field];
+        if (!(tn_spec_word(schema->module, spec, bit / 64) >> (bit % 64) & 1))
+            return false;
+    }
+    return true;
+}
+
 uint32_t tn_schema_forbidden_by(const tn_schema *schema, const uint8_t *values)
 {
     for (uint32_t i = 0; i < schema->record->forbid_count; i++) {
         uint32_t spec = schema->record->forbid_first + i;
-        bool meets = true;
-        for (uint32_t field = 0; meets && field < schema->field_count; field++) {
-            uint32_t bit = schema->value_start[field] + values[field];
-            meets = tn_spec_word(schema->module, spec, bit / 64) >> (bit % 64) & 1;
-        }
-        if (meets)
+        if (values_within(schema, values, spec))
             return spec;
     }
     return UINT32_MAX;
@@ -331,6 +387,11 @@ uint32_t tn_schema_forbidden_by(const tn_schema *schema, const uint8_t *values)
 
 bool tn_spec_meets(const tn_schema *schema, uint32_t spec, tn_tray tray)
 {
+    uint8_t values[TN_FIELDS_MAX];
+    if (schema->legal) {
+        tn_labelling_at(schema->legal, tray, values);
+        return values_within(schema, values, spec);
+    }
     return mask_within(schema, tn_tray_mask(schema, tray), spec);
 }
 

@@ -188,6 +188,57 @@ static tn_status divided_by_zero(const tn_schema *schema, uint32_t offset, tn_tr
     return TN_INVALID;
 }
 
+/* ---- kinds of trays, where trays are not listed */
+
+/* Splits the kinds by the specifiers that may_match asks. */
+static tn_status split_by_part(tn_kinds *kinds, uint32_t function, uint32_t *work, tn_error *error)
+{
+    const tn_module *module = kinds->schema->module;
+    const tn_function_record *record = &module->FUNCTION_records[function];
+    tn_status status = TN_OK;
+    for (uint32_t offset = record->code_begin; status == TN_OK && offset<record->code_end && * work> 0; --*work) {
+        tn_instruction op = tn_code_read(module->code, offset);
+        if (op.opcode == TN_OP_TRAY)
+            status = tn_kinds_by_spec(kinds, (uint32_t)op.first, error);
+        else if (op.opcode == TN_OP_CALL)
+            status = split_by_part(kinds, (uint32_t)op.first, work, error);
+        offset += op.length;
+    }
+    return status;
+}
+
+/* Trays of one kind count the same in the term, and are counted or not alike if that divides. */
+static tn_status split_by_term(tn_kinds *kinds, const tn_term_record *term, tn_error *error)
+{
+    const tn_module *module = kinds->schema->module;
+    const tn_function_record *record = &module->FUNCTION_records[term->tally];
+    bool divides = false;
+    tn_status status = TN_OK;
+    for (uint32_t offset = record->code_begin; status == TN_OK && offset < record->code_end;) {
+        tn_instruction op = tn_code_read(module->code, offset);
+        if (op.opcode == TN_OP_PICK)
+            status = tn_kinds_by_spec(kinds, (uint32_t)op.first, error);
+        else if (op.opcode == TN_OP_EXTENT)
+            status = tn_kinds_by_lengths(kinds, (uint32_t)op.first - kinds->schema->record->field_first, error);
+        divides |= op.opcode == TN_OP_OVER;
+        offset += op.length;
+    }
+    uint32_t work = WORK;
+    return status == TN_OK && divides ? split_by_part(kinds, term->part, &work, error) : status;
+}
+
+static tn_status find_kinds(tn_sum *sum, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; sum->schema->legal && status == TN_OK && i < sum->count; i++) {
+        const tn_term_record *term = &sum->schema->module->TERM_records[sum->record->term_first + i];
+        sum->terms[i].kinds.schema = sum->schema;
+        if (term->tally != TN_NO_RECORD)
+            status = split_by_term(&sum->terms[i].kinds, term, error);
+    }
+    return status;
+}
+
 /* ---- steps */
 
 /* The numbers of a sum one after another: its constant, and what each term counts for each tray. */
@@ -201,8 +252,20 @@ static const tn_term_record *term_of(const tn_sum *sum, uint32_t i)
     return &sum->schema->module->TERM_records[sum->record->term_first + i];
 }
 
-/* value := the number of tray t in term i; of a tray that the term does not count it may be anything. */
-static void number(const tn_sum *sum, walk *w, uint32_t i, tn_tray t)
+/* How many trays, or kinds of trays, there are in a term. */
+static uint32_t trays_of(const tn_sum *sum, uint32_t i)
+{
+    return sum->schema->legal ? tn_kinds_of(&sum->terms[i].kinds)->labels : sum->schema->tray_count;
+}
+
+/* The tray, or the first tray of the kind. */
+static tn_tray tray_of(const tn_sum *sum, uint32_t i, uint32_t t)
+{
+    return sum->schema->legal ? tn_kinds_of(&sum->terms[i].kinds)->first[t] : t;
+}
+
+/* value := the number of tray (or kind) t in term i; of a tray that the term does not count it may be anything. */
+static void number(const tn_sum *sum, walk *w, uint32_t i, uint32_t t)
 {
     uint32_t divided;
     const tn_term_record *term = term_of(sum, i);
@@ -210,15 +273,15 @@ static void number(const tn_sum *sum, walk *w, uint32_t i, tn_tray t)
         mpq_set(w->value, w->factor);
         return;
     }
-    tally_value(sum->schema, term->tally, t, w->value, &divided);
+    tally_value(sum->schema, term->tally, tray_of(sum, i, t), w->value, &divided);
     mpq_mul(w->value, w->value, w->factor);
 }
 
 /* What is needed counts nothing. */
-static tn_tray numbers(const tn_sum *sum, uint32_t i)
+static uint32_t numbers(const tn_sum *sum, uint32_t i)
 {
     const tn_term_record *term = term_of(sum, i);
-    return term->kind == TN_SUM_NEEDED ? 0 : term->tally == TN_NO_RECORD ? 1 : sum->schema->tray_count;
+    return term->kind == TN_SUM_NEEDED ? 0 : term->tally == TN_NO_RECORD ? 1 : trays_of(sum, i);
 }
 
 static void constant(const tn_sum *sum, walk *w)
@@ -239,11 +302,12 @@ static tn_status check_divisions(const tn_sum *sum, walk *w, tn_error *error)
     uint32_t divided;
     for (uint32_t i = 0; i < sum->count; i++) {
         const tn_term_record *term = term_of(sum, i);
-        for (tn_tray t = 0; term->tally != TN_NO_RECORD && t < sum->schema->tray_count; t++) {
+        for (uint32_t t = 0; term->tally != TN_NO_RECORD && t < trays_of(sum, i); t++) {
             uint32_t work = WORK;
-            if (!tally_value(sum->schema, term->tally, t, w->value, &divided) &&
-                may_match(sum->schema, term->part, t, &work))
-                return divided_by_zero(sum->schema, divided, t, error);
+            tn_tray tray = tray_of(sum, i, t);
+            if (!tally_value(sum->schema, term->tally, tray, w->value, &divided) &&
+                may_match(sum->schema, term->part, tray, &work))
+                return divided_by_zero(sum->schema, divided, tray, error);
         }
     }
     return TN_OK;
@@ -255,7 +319,7 @@ static tn_status find_unit(tn_sum *sum, walk *w, tn_error *error)
     mpz_set(w->common, mpq_denref(w->value));
     for (uint32_t i = 0; i < sum->count; i++) {
         mpq_set_str(w->factor, tn_text(sum->schema->module, term_of(sum, i)->factor), 10);
-        for (tn_tray t = 0; t < numbers(sum, i); t++) {
+        for (uint32_t t = 0; t < numbers(sum, i); t++) {
             number(sum, w, i, t);
             mpz_lcm(w->common, w->common, mpq_denref(w->value));
             if (mpz_sizeinbase(w->common, 2) > TN_RATIONAL_BITS)
@@ -282,7 +346,7 @@ static void find_divisor(tn_sum *sum, walk *w)
     divide(w);
     for (uint32_t i = 0; i < sum->count; i++) {
         mpq_set_str(w->factor, tn_text(sum->schema->module, term_of(sum, i)->factor), 10);
-        for (tn_tray t = 0; t < numbers(sum, i); t++) {
+        for (uint32_t t = 0; t < numbers(sum, i); t++) {
             number(sum, w, i, t);
             divide(w);
         }
@@ -310,15 +374,15 @@ static tn_status fill(tn_sum *sum, walk *w, tn_error *error)
     for (uint32_t i = 0; i < sum->count; i++) {
         const tn_term_record *record = term_of(sum, i);
         tn_sum_term *term = &sum->terms[i];
-        *term = (tn_sum_term){.kind = tn_term_counts(record->kind),
-                              .region = tn_term_region(record->kind),
-                              .part = record->part,
-                              .other = record->other};
+        term->kind = tn_term_counts(record->kind);
+        term->region = tn_term_region(record->kind);
+        term->part = record->part;
+        term->other = record->other;
         mpq_set_str(w->factor, tn_text(sum->schema->module, record->factor), 10);
         if (record->tally != TN_NO_RECORD &&
-            !(term->weight = calloc((size_t)sum->schema->tray_count + 1, sizeof *term->weight)))
+            !(term->weight = calloc((size_t)trays_of(sum, i) + 1, sizeof *term->weight)))
             return tn_fail_memory(error);
-        for (tn_tray t = 0; t < numbers(sum, i); t++) {
+        for (uint32_t t = 0; t < numbers(sum, i); t++) {
             number(sum, w, i, t);
             if (!to_steps(sum, w, term->weight ? &term->weight[t] : &term->each))
                 return too_fine(error);
@@ -340,7 +404,9 @@ tn_status tn_sum_new(const tn_schema *schema, uint32_t index, tn_sum **out, tn_e
     walk w;
     mpz_inits(w.common, w.divisor, NULL);
     mpq_inits(w.value, w.factor, NULL);
-    tn_status status = sum->terms ? check_divisions(sum, &w, error) : tn_fail_memory(error);
+    tn_status status = sum->terms ? find_kinds(sum, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = check_divisions(sum, &w, error);
     if (status == TN_OK)
         status = find_unit(sum, &w, error);
     if (status == TN_OK) {
@@ -361,8 +427,10 @@ void tn_sum_free(tn_sum *sum)
 {
     if (!sum)
         return;
-    for (uint32_t i = 0; sum->terms && i < sum->count; i++)
+    for (uint32_t i = 0; sum->terms && i < sum->count; i++) {
         free(sum->terms[i].weight);
+        tn_labelling_free(sum->terms[i].kinds.made);
+    }
     free(sum->terms);
     mpq_clear(sum->unit);
     free(sum);

@@ -7,7 +7,7 @@
 
 #include <gmp.h>
 
-#include "runtime/plan/schema/schema.h"
+#include "runtime/plan/schema/kinds.h"
 
 #define TN_SUM_STEPS_MAX (INT64_C(1) << 45) /* of one tray or place, so that sums of all places stay in 64 bits */
 
@@ -20,7 +20,8 @@ typedef struct tn_sum_term {
     uint32_t part;   /* a rule function */
     uint32_t other;  /* of gaps: where they lead, a rule function */
     int64_t each;    /* steps of each place; singles, and trays of a gap: where `weight` is NULL */
-    int64_t *weight; /* [trays]: steps of each tray, or NULL */
+    int64_t *weight; /* [trays]: steps of each tray, or NULL; where trays are not listed, [kinds]: */
+    tn_kinds kinds;  /* trays of one kind count the same */
 } tn_sum_term;
 
 typedef struct tn_sum {
@@ -55,6 +56,14 @@ static inline const tn_term_record *tn_preferred_term(const tn_module *module, c
  * where its numbers have no common step that is coarse enough. */
 tn_status tn_sum_new(const tn_schema *schema, uint32_t index, tn_sum **sum, tn_error *error);
 void tn_sum_free(tn_sum *sum);
+
+/* The steps of a single tray. */
+static inline int64_t tn_term_steps(const tn_sum_term *term, tn_tray tray)
+{
+    if (!term->weight)
+        return term->each;
+    return term->weight[term->kinds.schema ? tn_labelling_at(tn_kinds_of(&term->kinds), tray, NULL) : tray];
+}
 
 /* The sum is a multiple of a number (above 0, in nanometres to the sum's power) if its steps are one of this. */
 int64_t tn_sum_modulus(const tn_sum *sum, int64_t number);

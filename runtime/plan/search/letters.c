@@ -215,6 +215,9 @@ tn_status tn_tray_counts_make(tn_tray_counts *counts, const tn_schema *schema, c
 {
     tn_interner nodes = {0};
     *counts = (tn_tray_counts){0};
+    tn_status status = tn_schema_listed(schema, "searching plans by sums goes", error);
+    if (status != TN_OK)
+        return status;
     tray_groups groups = {tn_array_new((uint64_t)schema->tray_count + 1, sizeof *groups.first),
                           tn_array_new((uint64_t)schema->tray_count + 1, sizeof *groups.follows), 0};
     bool good = groups.first && groups.follows && list_counts(counts, schema, of_tray) &&

@@ -77,6 +77,9 @@ static tn_status find_lengths(tn_unrolled *u, uint32_t field, const unroll_count
             *found = &u->counts[i];
             return TN_OK;
         }
+    tn_status status = tn_schema_listed(u->schema, "searching plans by sums goes", error);
+    if (status != TN_OK)
+        return status;
     unroll_counts *made = add_counts(u);
     if (!made || !(made->lengths = tn_array_new((uint64_t)u->schema->tray_count + 1, sizeof *made->lengths)))
         return tn_fail_memory(error);

@@ -201,6 +201,9 @@ static tn_status put_tally(writing *w, uint32_t index, uint32_t term, const tn_s
     bool depends[TN_FIELDS_MAX] = {0};
     uint32_t key[TN_FIELDS_MAX];
     tn_interner seen = {0};
+    tn_status status = tn_schema_listed(schema, "a Prolog program with sums goes", error);
+    if (status != TN_OK)
+        return status;
     find_fields(w, w->module->TERM_records[sum->record->term_first + term].tally, depends);
     bool good = true;
     for (tn_tray t = 0; good && t < schema->tray_count; t++) {

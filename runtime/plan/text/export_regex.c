@@ -265,7 +265,7 @@ bool tn_regex_plan(const tn_dfa *dfa, const tn_classes *classes, const tn_tray *
 {
     bool ok = tn_buffer_append(out, "", 0);
     for (size_t i = 0; ok && i < length; i++) {
-        char c = tn_regex_letter(dfa->column[classes->of_tray[trays[i]]]);
+        char c = tn_regex_letter(dfa->column[tn_class_of(classes, trays[i])]);
         ok = tn_buffer_append(out, &c, 1);
     }
     return ok;

@@ -45,6 +45,11 @@ uint64_t tn_pack_schema_hash(const tn_schema *schema)
         add_text(hash, schema->module, schema->values[v].name);
         add_number(hash, (uint64_t)schema->values[v].length);
     }
+    if (schema->legal) { /* equal trays, equal nodes */
+        for (size_t i = 0; i < schema->legal->nodes.words_used; i++)
+            add_number(hash, schema->legal->nodes.words[i]);
+        return XXH3_64bits_digest(hash);
+    }
     XXH3_64bits_update(hash, schema->tray_values, (size_t)schema->tray_count * schema->field_count);
     return XXH3_64bits_digest(hash);
 }

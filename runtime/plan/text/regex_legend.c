@@ -110,8 +110,11 @@ static tn_status write_letter(const tn_schema *schema, uint32_t letter, const bo
 tn_status tn_regex_legend(const tn_dfa *dfa, const tn_classes *classes, tn_buffer *out, tn_error *error)
 {
     const tn_schema *schema = classes->schema;
+    tn_status status = tn_schema_listed(schema, "the legend of a regular expression goes", error);
+    if (status != TN_OK)
+        return status;
     bool *in = malloc((size_t)schema->tray_count + 1);
-    tn_status status = in ? TN_OK : tn_fail_memory(error);
+    status = in ? TN_OK : tn_fail_memory(error);
     for (uint32_t c = 0; status == TN_OK && c < dfa->columns; c++) {
         for (tn_tray t = 0; t < schema->tray_count; t++)
             in[t] = dfa->column[classes->of_tray[t]] == c;

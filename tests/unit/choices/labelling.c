@@ -1,0 +1,220 @@
+/* Labels of combinations, against tables of all combinations. */
+#include "runtime/choices/labelling.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "tests/support/test_rule.h"
+
+enum { FIELDS = 4, ROUNDS = 200, TESTS = 6 };
+static const uint32_t counts[FIELDS] = {3, 2, 5, 4};
+enum { BITS = 3 + 2 + 5 + 4, COMBINATIONS = 3 * 2 * 5 * 4 };
+
+/* What the definition says: of each combination its label, or TN_UNLABELLED. */
+typedef struct table {
+    uint32_t label[COMBINATIONS];
+} table;
+
+static void values_of(uint32_t code, uint8_t *values)
+{
+    for (uint32_t f = FIELDS; f-- > 0;) {
+        values[f] = (uint8_t)(code % counts[f]);
+        code /= counts[f];
+    }
+}
+
+static bool is_within(const uint8_t *values, uint64_t mask)
+{
+    uint32_t start = 0;
+    for (uint32_t f = 0; f < FIELDS; f++) {
+        if (!(mask >> (start + values[f]) & 1))
+            return false;
+        start += counts[f];
+    }
+    return true;
+}
+
+static uint64_t random_mask(test_random *random)
+{
+    uint64_t all = (UINT64_C(1) << BITS) - 1;
+    return (test_random_next(random) | test_random_next(random)) & all;
+}
+
+/* Numbers the labels of a table by their first combinations. */
+static uint32_t number_labels(table *t)
+{
+    uint32_t of[COMBINATIONS * 64], made = 0;
+    memset(of, 0xff, sizeof of);
+    for (uint32_t c = 0; c < COMBINATIONS; c++) {
+        if (t->label[c] == TN_UNLABELLED)
+            continue;
+        uint32_t *label = &of[t->label[c]];
+        if (*label == TN_UNLABELLED)
+            *label = made++;
+        t->label[c] = *label;
+    }
+    return made;
+}
+
+/* Combinations that few random boxes leave. */
+static tn_labelling *random_set(test_random *random, table *t)
+{
+    tn_choice_diagram *choices = tn_choices_new(counts, FIELDS, TN_CHOICES_ROOM);
+    tn_choice_set set = TN_CHOICE_ALL;
+    tn_labelling *made;
+    for (uint32_t c = 0; c < COMBINATIONS; c++)
+        t->label[c] = 0;
+    for (uint32_t i = test_random_below(random, TESTS); i-- > 0;) {
+        uint64_t mask = random_mask(random);
+        set = tn_choices_and(choices, set, tn_choices_not(choices, tn_choices_box(choices, &mask)));
+        for (uint32_t c = 0; c < COMBINATIONS; c++) {
+            uint8_t values[FIELDS];
+            values_of(c, values);
+            if (is_within(values, mask))
+                t->label[c] = TN_UNLABELLED;
+        }
+    }
+    assert_int_equal(tn_labelling_of_set(choices, set, &made), TN_OK);
+    tn_choices_free(choices);
+    return made;
+}
+
+/* Splits by a box or by a field, or keeps some of a field's values together. */
+static tn_labelling *split(test_random *random, tn_labelling *before, table *t)
+{
+    tn_labelling *test, *made;
+    uint64_t mask = random_mask(random);
+    uint32_t field = test_random_below(random, FIELDS), letters[8], kinds[8];
+    bool box = test_random_below(random, 2), joined = test_random_below(random, 2);
+    for (uint32_t i = 0; i < 8; i++) {
+        letters[i] = i < counts[field] ? test_random_below(random, counts[field]) : 0;
+        kinds[i] = test_random_below(random, 3);
+    }
+    assert_int_equal(box ? tn_labelling_of_box(counts, FIELDS, &mask, &test)
+                         : tn_labelling_of_field(counts, FIELDS, field, letters, &test),
+                     TN_OK);
+    assert_int_equal(tn_labelling_join(before, test, joined ? kinds : NULL, &made), TN_OK);
+    for (uint32_t c = 0; c < COMBINATIONS; c++) {
+        uint8_t values[FIELDS];
+        values_of(c, values);
+        uint32_t letter = box ? is_within(values, mask) : letters[values[field]];
+        if (t->label[c] != TN_UNLABELLED)
+            t->label[c] = t->label[c] * 8 + (joined ? kinds[letter] : letter);
+    }
+    tn_labelling_free(test);
+    tn_labelling_free(before);
+    return made;
+}
+
+/* Passes combinations as long as fewer than `most` are passed, and counts those of each label. */
+typedef struct passing {
+    uint64_t most;
+    uint32_t *passed;
+} passing;
+
+static bool pass(void *context, const tn_label_count *below, size_t count)
+{
+    passing *p = context;
+    uint64_t all = 0;
+    for (size_t i = 0; i < count; i++)
+        all += below[i].count;
+    if (all > p->most)
+        return false;
+    p->most -= all;
+    for (size_t i = 0; i < count; i++)
+        p->passed[below[i].label] += below[i].count;
+    return true;
+}
+
+static bool is_label(void *context, uint32_t label)
+{
+    return label % 3 == *(const uint32_t *)context;
+}
+
+static void check(const tn_labelling *l, const table *t, uint32_t labels)
+{
+    uint32_t number = 0, before[COMBINATIONS] = {0}, passed[COMBINATIONS], next[3];
+    assert_int_equal(l->labels, labels);
+    for (uint32_t c = 0; c < COMBINATIONS; c++) {
+        uint8_t values[FIELDS], found[FIELDS];
+        values_of(c, values);
+        if (t->label[c] == TN_UNLABELLED) {
+            assert_int_equal(tn_labelling_number(l, values), TN_UNLABELLED);
+            continue;
+        }
+        assert_int_equal(tn_labelling_number(l, values), number);
+        assert_int_equal(tn_labelling_at(l, number, found), t->label[c]);
+        assert_memory_equal(found, values, FIELDS);
+        if (before[t->label[c]] == 0)
+            assert_int_equal(l->first[t->label[c]], number);
+        memset(passed, 0, sizeof passed);
+        passing p = {number, passed};
+        assert_int_equal(tn_labelling_find(l, pass, &p), number);
+        assert_memory_equal(passed, before, sizeof passed);
+        before[t->label[c]]++;
+        number++;
+    }
+    assert_int_equal(l->count, number);
+    passing all = {UINT64_MAX, memset(passed, 0, sizeof passed)};
+    assert_int_equal(tn_labelling_find(l, pass, &all), number);
+    assert_memory_equal(passed, before, sizeof passed);
+    for (uint32_t k = 0; k < 3; k++)
+        next[k] = number;
+    for (uint32_t c = COMBINATIONS, n = number; c-- > 0;) {
+        if (t->label[c] == TN_UNLABELLED)
+            continue;
+        next[t->label[c] % 3] = --n;
+        for (uint32_t k = 0; k < 3; k++)
+            assert_int_equal(tn_labelling_next(l, n, is_label, &k), next[k]);
+    }
+}
+
+static void test_against_tables(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= ROUNDS; seed++) {
+        test_random random = {.seed = seed};
+        table t;
+        tn_labelling *made = random_set(&random, &t);
+        check(made, &t, number_labels(&t));
+        for (uint32_t i = test_random_below(&random, TESTS); i-- > 0;) {
+            made = split(&random, made, &t);
+            check(made, &t, number_labels(&t));
+        }
+        tn_labelling_free(made);
+    }
+}
+
+/* 2^31 combinations in a handful of nodes; 2^33 are too many to be numbered. */
+static void test_many(void **state)
+{
+    (void)state;
+    uint32_t flags[33];
+    for (uint32_t f = 0; f < 33; f++)
+        flags[f] = 2;
+    tn_choice_diagram *choices = tn_choices_new(flags, 31, TN_CHOICES_ROOM);
+    tn_labelling *made;
+    uint8_t values[33];
+    assert_int_equal(tn_labelling_of_set(choices, TN_CHOICE_ALL, &made), TN_OK);
+    assert_int_equal(made->nodes.count, 31);
+    assert_int_equal(made->count, UINT32_C(1) << 31);
+    assert_int_equal(tn_labelling_at(made, (UINT32_C(1) << 31) - 2, values), 0);
+    assert_int_equal(values[0], 1);
+    assert_int_equal(values[30], 0);
+    tn_labelling_free(made);
+    tn_choices_free(choices);
+    choices = tn_choices_new(flags, 33, TN_CHOICES_ROOM);
+    assert_int_equal(tn_labelling_of_set(choices, TN_CHOICE_ALL, &made), TN_LIMIT);
+    assert_null(made);
+    tn_choices_free(choices);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_against_tables), cmocka_unit_test(test_many)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
