@@ -65,7 +65,7 @@ fi
 "$TARTAN" sample "$files/sides.plan" 12 --seed 5 >"$scratch/sides"
 {
     while read -r plan; do
-        for rule in wide share between dear many-beds back turned rate named moved shifted by-trays floor longest; do
+        for rule in wide share between dear many-beds back turned rate named moved shifted by-trays floor half-beds least-share each-use longest; do
             "$TARTAN" explain "$files/sides.plan" "$plan" --rule "$rule" --json 2>/dev/null
         done
     done
@@ -102,6 +102,8 @@ def sides(rule, trays):
         "shifted": (rent + 5 - 60, None, ""),
         "by-trays": (3 * n, [4 * many("bed")], ""),
         "floor": (6 * width, [70], " m2"),
+        "half-beds": (many("bed"), [F(n, 2)], ""),
+        "least-share": (25, [100 * of("kitchen") / width], " %"),
         "longest": None,
     }[rule]
 
@@ -111,6 +113,13 @@ for line in open(sys.argv[1]):
     answer = json.loads(line)
     trays = [tray.split() for tray in answer["plan"].split(" | ")]
     rule, why = answer["rules"][0]["name"], answer["rules"][0]["why"]
+    if rule == "each-use":  # a comparison for each use, in their order
+        whole = sum(int(tray[0][:-1]) for tray in trays)
+        for use, part in zip(RENT, why["parts"], strict=True):
+            held = sum(int(tray[0][:-1]) for tray in trays if tray[1] == use)
+            assert part["evidence"] == part["left"] + ", compared with " + part["right"][0]
+            assert number(part["left"]) == held and number(part["right"][0]) == whole / 2, (trays, part)
+        continue
     wanted = sides(rule, trays)
     if wanted is None:
         assert "left" not in why and "difference" not in why, (rule, why)
@@ -125,6 +134,6 @@ for line in open(sys.argv[1]):
     for text, value in zip(got, [left, *(right or [])], strict=True):
         assert abs(number(text) - value) <= 1e-5 * max(1, abs(value)) and text.endswith(unit), (rule, trays, text, value)
     seen += 1
-assert seen == 12 * 13, seen
+assert seen == 12 * 15, seen
 PYTHON
 finish

@@ -233,6 +233,20 @@ static tn_status find_share(const compared *c, tn_sides *sides)
     return status;
 }
 
+/* `k <= a / b`: b, and k * b - a. */
+static tn_status find_turned_share(const compared *c, tn_sides *sides)
+{
+    tn_status status = find_share(c, sides);
+    if (status == TN_OK && sides->right_count == 1) {
+        mpq_swap(sides->left, sides->right[0]);
+        if (mpq_sgn(sides->left) < 0) {
+            mpq_neg(sides->left, sides->left);
+            mpq_neg(sides->right[0], sides->right[0]);
+        }
+    }
+    return status;
+}
+
 /* Terms with a minus sign stand on the right, if both sides count something and neither takes anything away. */
 static tn_status split_terms(const compared *c, tn_sides *sides, const mpq_t constant)
 {
@@ -271,11 +285,22 @@ static void split_constants(const compared *c, tn_sides *sides, const mpq_t valu
     mpq_clear(constant);
 }
 
+/* Where the right side begins. */
+static const char *behind_operator(const compared *c)
+{
+    return c->operator+(*c->operator== ' ' ? strlen(" in ") : strspn(c->operator, "<>=!"));
+}
+
+/* Is a side a percentage alone? `50% * trays` is a number of trays. */
+static bool is_percentage(const char *from, const char *to)
+{
+    return is_plain(from, to) && memchr(from, '%', (size_t)(to - from)) && !memchr(from, '*', (size_t)(to - from));
+}
+
 /* Where the sides cannot be told apart, how much more the left one is. */
 static tn_status find_sums(const compared *c, tn_sides *sides)
 {
-    const char *end = c->text + strlen(c->text),
-               *behind = c->operator+(*c->operator== ' ' ? strlen(" in ") : strspn(c->operator, "<>=!"));
+    const char *end = c->text + strlen(c->text), *behind = behind_operator(c);
     bool left = counts(c, c->text, c->operator), right = counts(c, behind, end), has = true;
     bool added[] = {has_constant(c->text, c->operator), has_constant(c->operator, end)};
     bool plain[] = {is_plain(c->text, c->operator), is_plain(behind, end)};
@@ -312,8 +337,14 @@ tn_status tn_explain_sides(tn_plan_vm *vm, const tn_parts *parts, uint32_t part,
     c.operator= find_operator(text);
     if (!c.operator|| !read_code(&c, &parts->parts[part]))
         return TN_OK;
-    sides->percent = strchr(c.operator, '%') != NULL;
-    return has_outside(text, c.operator, "/") && c.count > 1 ? find_share(&c, sides) : find_sums(&c, sides);
+    sides->percent =
+        is_percentage(text, c.operator) || is_percentage(behind_operator(&c), c.operator+ strlen(c.operator));
+    const char *behind = behind_operator(&c);
+    if (c.count > 1 && has_outside(text, c.operator, "/"))
+        return find_share(&c, sides);
+    if (c.count > 1 && has_outside(behind, behind + strlen(behind), "/"))
+        return find_turned_share(&c, sides);
+    return find_sums(&c, sides);
 }
 
 void tn_sides_init(tn_sides *sides)
