@@ -65,6 +65,7 @@ ASKED = {
     ],
     "house": [
         ("tests/cli/files/cabins.plan", {"house": "#10:77", "files": ["json", "parts.csv", "glb", "ifc", "svg"]}, "#10:77 -o a.json -o a.parts.csv -o a.glb -o a.ifc -o a.svg"),
+        ("tests/cli/files/cabins.plan", {"house": "#10:77", "files": ["obj", "mtl"], "mtl": ["a.mtl"]}, "#10:77 -o a.obj -o a.mtl"),
         ("tests/cli/files/cabins.plan", {"house": "#10:77", "files": ["png"], "dpi": 40, "bare": True, "cut": "ground", "views": ["axonometric"], "azimuth": 20, "elevation": 70},
          "#10:77 -o a.png --dpi 40 --furnish no --cut ground --view axonometric --azimuth 20 --elevation 70"),
         ("tests/cli/files/cabins.plan", {"house": "14' room:14' none ; 1 gable(9:12) 1 flat ; living ; window wall window", "files": ["dxf"], "views": ["plan:ground"]},

@@ -223,7 +223,7 @@ def compiles(ending):
 
 
 CHECKS = {
-    "svg": is_svg, "png": begins(b"\x89PNG\r\n"), "pdf": begins(b"%PDF-"), "obj": is_obj, "ply": begins(b"ply\n"), "stl": is_stl,
+    "svg": is_svg, "png": begins(b"\x89PNG\r\n"), "pdf": begins(b"%PDF-"), "obj": is_obj, "mtl": begins(b"newmtl "), "ply": begins(b"ply\n"), "stl": is_stl,
     "off": begins(b"OFF"), "om": begins(b"OM"), "glb": is_glb, "3mf": is_3mf, "scad": has(rb"polyhedron\("), "ifc": begins(b"ISO-10303-21;"),
     "dxf": is_dxf, "cli": begins(b"$$HEADERSTART"), "csv": is_csv, "bin": begins(b"TARTANPL"), "parquet": begins(b"PAR1"),
     "html": is_html, "htm": is_html, "ldr": is_ldraw, "mpd": is_ldraw, "tnb": compiles(".tnb"), "pl": has(rb"^\w+\(.*:-"),
@@ -244,7 +244,7 @@ def ask(words, ending, folder):
             if made or not named:
                 return False, f"exit {done.returncode}, {made} made: {said[:300]}"
             return False, None
-        beside = {f"made.{table}.{ending}" for table in ("rooms", "faces")} if ending in ("csv", "parquet") else set()  # of houses
+        beside = {f"made.{table}.{ending}" for table in ("rooms", "faces")} if ending in ("csv", "parquet") else {"made.mtl"} if ending == "obj" else set()  # of houses
         if set(made) - beside != {"made." + ending} or len(made) not in (1, 1 + len(beside)):
             return True, f"it made {made}"
         if ending not in CHECKS:
@@ -253,7 +253,7 @@ def ask(words, ending, folder):
             for name in made:
                 with open(os.path.join(empty, name), "rb") as file:
                     data = file.read()
-                CHECKS[ending](data)
+                CHECKS[name.rpartition(".")[2]](data)
         except Exception as wrong:  # whatever a reader says
             return True, f"it is no .{ending}: {wrong!r}"
         return True, None

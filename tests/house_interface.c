@@ -152,7 +152,7 @@ static tartan_status vary(const question *q, tartan_error *error)
 static tartan_status file(const question *q, tartan_error *error)
 {
     static const char *const formats[] = {"json", "csv", "parts.csv", "obj", "ply", "glb",
-                                          "ifc",  "dxf", "svg",       "png", "pdf"};
+                                          "ifc",  "dxf", "svg",       "png", "pdf", "mtl"};
     tartan_house *house = NULL;
     tartan_house_drawing drawing = tartan_house_drawing_init();
     const char *view = q->words[3];
@@ -163,6 +163,7 @@ static tartan_status file(const question *q, tartan_error *error)
         format++;
     drawing.views = &view;
     drawing.view_count = view != NULL;
+    drawing.mtl = "written.mtl"; /* as beside written.obj of the command */
     tartan_status status = house_of(q, q->words[2], &house, error);
     if (status == TARTAN_OK)
         status = tartan_house_file(house, (tartan_house_format)format, &drawing, NULL, &bytes, &size, error);

@@ -11,6 +11,7 @@ import sys
 import xml.etree.ElementTree as xml
 import zipfile
 from collections import Counter
+from itertools import groupby
 
 failures = []
 
@@ -65,18 +66,18 @@ def read_glb(path):
         at = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
         return struct.unpack_from(f"<{accessor['count'] * count}{kind}", binary, at)
 
-    [mesh] = tree["meshes"]
-    numbers = values(mesh["primitives"][0]["attributes"]["POSITION"], "f", 3)
-    points = [(x, -z, y) for x, y, z in zip(numbers[::3], numbers[1::3], numbers[2::3])]
-    bounds = tree["accessors"][mesh["primitives"][0]["attributes"]["POSITION"]]
-    low, high = extent(list(zip(numbers[::3], numbers[1::3], numbers[2::3])))[:3], extent(list(zip(numbers[::3], numbers[1::3], numbers[2::3])))[3:]
-    check("bounds are those of the points", all(abs(a - b) <= 1e-6 * abs(a) for a, b in zip(low + high, bounds["min"] + bounds["max"])))
-    faces = []
-    for primitive in mesh["primitives"]:
-        red, green, blue, alpha = tree["materials"][primitive["material"]]["pbrMetallicRoughness"]["baseColorFactor"]
-        check("colours are between 0 and 1", all(0 <= c <= 1 for c in (red, green, blue)) and alpha == 1)
-        corners = values(primitive["indices"], "I", 1)
-        faces += [(corners[i:i + 3], (srgb(red), srgb(green), srgb(blue))) for i in range(0, len(corners), 3)]
+    points, faces = [], []
+    for position, primitives in groupby((p for mesh in tree["meshes"] for p in mesh["primitives"]), lambda p: p["attributes"]["POSITION"]):
+        numbers = values(position, "f", 3)
+        first, bounds = len(points), tree["accessors"][position]
+        points += [(x, -z, y) for x, y, z in zip(numbers[::3], numbers[1::3], numbers[2::3])]
+        ends = extent(list(zip(numbers[::3], numbers[1::3], numbers[2::3])))
+        check("bounds are those of the points", all(abs(a - b) <= 1e-6 * abs(a) for a, b in zip(ends, bounds["min"] + bounds["max"])))
+        for primitive in primitives:
+            red, green, blue, alpha = tree["materials"][primitive["material"]]["pbrMetallicRoughness"]["baseColorFactor"]
+            check("colours are between 0 and 1", all(0 <= c <= 1 for c in (red, green, blue, alpha)) and alpha > 0)
+            corners = [first + corner for corner in values(primitive["indices"], "I", 1)]
+            faces += [(corners[i:i + 3], (srgb(red), srgb(green), srgb(blue))) for i in range(0, len(corners), 3)]
     return points, faces
 
 

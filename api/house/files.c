@@ -43,7 +43,7 @@ static const tn_house_file kinds[] = {[TARTAN_HOUSE_JSON] = TN_HOUSE_AS_JSON,   
                                       [TARTAN_HOUSE_PLY] = TN_HOUSE_AS_PLY,     [TARTAN_HOUSE_GLB] = TN_HOUSE_AS_GLB,
                                       [TARTAN_HOUSE_IFC] = TN_HOUSE_AS_IFC,     [TARTAN_HOUSE_DXF] = TN_HOUSE_AS_DXF,
                                       [TARTAN_HOUSE_SVG] = TN_HOUSE_AS_SVG,     [TARTAN_HOUSE_PNG] = TN_HOUSE_AS_PNG,
-                                      [TARTAN_HOUSE_PDF] = TN_HOUSE_AS_PDF};
+                                      [TARTAN_HOUSE_PDF] = TN_HOUSE_AS_PDF,     [TARTAN_HOUSE_MTL] = TN_HOUSE_AS_MTL};
 
 static tn_status write_stream(const tn_house_filed *filed, tn_house_file kind, void **bytes, size_t *size,
                               tn_error *error)
@@ -72,6 +72,7 @@ static tn_status write_file(const tartan_house *house, tartan_house_format forma
     const tn_house_filed filed = {.house = &house->house,
                                   .solids = &solids,
                                   .title = drawing->title,
+                                  .mtl = drawing->mtl,
                                   .views = {.items = drawing->views,
                                             .count = drawing->view_count,
                                             .cut = drawing->cut,
@@ -107,7 +108,7 @@ tartan_status tartan_house_file(const tartan_house *house, tartan_house_format f
     tn_error found;
     if (!house || !bytes || !size)
         return tn_api_missing(error, house ? "room for the file" : "house");
-    if ((unsigned)format > TARTAN_HOUSE_PDF)
+    if ((unsigned)format > TARTAN_HOUSE_MTL)
         return tn_api_refuse(error, TARTAN_INVALID, "there is no format of houses %d", (int)format);
     tartan_house_drawing wanted;
     tartan_status status = TN_API_TAKE(tartan_house_drawing, &wanted, drawing, error);

@@ -228,6 +228,7 @@ typedef struct building {
     const tn_house_request *request;
     tn_built_house *built;
     tn_house_filed filed;
+    size_t objs; /* how many were begun */
 } building;
 
 /* ---- which files */
@@ -297,6 +298,11 @@ static tn_status write_file(building *b, const char *word, tn_error *error)
         return TN_MEMORY;
     tn_status status = kind_of(word, &kind, error);
     snprintf(name, sizeof name, "house.%s", word);
+    if (status == TN_OK && kind == TN_HOUSE_AS_OBJ) {
+        const tn_texts *names = &b->request->mtl;
+        b->filed.mtl = b->objs < names->count ? names->items[b->objs] : NULL;
+        b->objs++;
+    }
     if (status == TN_OK)
         status = tn_making_begin(&making, b->session, tn_house_file_format(kind),
                                  b->request->files.count > 1 ? name : NULL, file, error);
@@ -429,6 +435,7 @@ static tn_status write_all(void *context, const tn_house *house, tn_error *error
         status = tn_house_solids(house, &solids, error);
     b->filed = filed_of(b);
     b->filed.house = house;
+    b->filed.line = b->built->house;
     b->filed.solids = &solids;
     for (size_t i = 0; status == TN_OK && i < b->request->files.count; i++)
         status = write_file(b, b->request->files.items[i], error);

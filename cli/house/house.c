@@ -26,14 +26,14 @@ static const house_settings *settings_of(const tn_job *job)
 
 /* ---- what -o names */
 
-#define ENDINGS ".json, .csv, .parts.csv, .obj, .ply, .glb, .ifc, .dxf, .svg, .pdf or .png"
+#define ENDINGS ".json, .csv, .parts.csv, .obj, .mtl, .ply, .glb, .ifc, .dxf, .svg, .pdf or .png"
 
 /* The files that are made, what each is written as, and of those in a folder, which has one of every kind, the folder.
- */
+ * mtls: of each .obj, the name of the file beside it that has its materials; in its path. */
 typedef struct house_files {
-    const char **words, **folders;
+    const char **words, **folders, **mtls;
     char **paths;
-    size_t count;
+    size_t count, mtl_count;
     bool line; /* standard output gets the house's line */
 } house_files;
 
@@ -68,15 +68,56 @@ static bool add_file(house_files *files, char *path, tn_house_file kind, const c
     return path != NULL;
 }
 
+static const char *known_path(const house_files *files, const char *path)
+{
+    for (size_t i = 0; i < files->count; i++)
+        if (files->paths[i] && strcmp(files->paths[i], path) == 0)
+            return files->paths[i];
+    return NULL;
+}
+
+static const char *name_in(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+/* Beside a.obj is a.mtl, with its materials. */
+static bool add_materials(house_files *files, const char *obj, const char *folder)
+{
+    int stem = (int)(strlen(obj) - strlen(tn_house_file_ending(TN_HOUSE_AS_OBJ)));
+    char *path;
+    if (asprintf(&path, "%.*s%s", stem, obj, tn_house_file_ending(TN_HOUSE_AS_MTL)) < 0)
+        return false;
+    const char *known = known_path(files, path);
+    files->mtls[files->mtl_count++] = name_in(known ? known : path);
+    if (!known)
+        return add_file(files, path, TN_HOUSE_AS_MTL, folder);
+    free(path);
+    return true;
+}
+
+static bool add_named(house_files *files, const char *path)
+{
+    tn_house_file kind = tn_house_file_of(path);
+    if (known_path(files, path))
+        return true;
+    return add_file(files, strdup(path), kind, NULL) && (kind != TN_HOUSE_AS_OBJ || add_materials(files, path, NULL));
+}
+
 static bool add_folder(house_files *files, const char *folder)
 {
     bool good = true;
     for (int i = TN_HOUSE_AS_LINE + 1; good && i < TN_HOUSE_FILES; i++) {
         char *path;
+        if (i == TN_HOUSE_AS_MTL) /* it is there with .obj */
+            continue;
         const char *between = folder[strlen(folder) - 1] == '/' ? "" : "/";
         if (asprintf(&path, "%s%shouse%s", folder, between, tn_house_file_ending((tn_house_file)i)) < 0)
             path = NULL;
         good = add_file(files, path, (tn_house_file)i, folder);
+        if (good && i == TN_HOUSE_AS_OBJ)
+            good = add_materials(files, path, folder);
     }
     return good;
 }
@@ -84,11 +125,14 @@ static bool add_folder(house_files *files, const char *folder)
 static bool list_files(tn_job *job, house_files *files)
 {
     const tn_option_list *names = &settings_of(job)->files;
-    size_t room = names->count * TN_HOUSE_FILES + 1;
+    size_t room = names->count * (TN_HOUSE_FILES + 1) + 1;
     tn_error error;
-    *files = (house_files){calloc(room, sizeof *files->words), calloc(room, sizeof *files->folders),
-                           calloc(room, sizeof *files->paths), 0, names->count == 0};
-    bool good = files->words && files->folders && files->paths;
+    *files = (house_files){.words = calloc(room, sizeof *files->words),
+                           .folders = calloc(room, sizeof *files->folders),
+                           .paths = calloc(room, sizeof *files->paths),
+                           .mtls = calloc(room, sizeof *files->mtls),
+                           .line = names->count == 0};
+    bool good = files->words && files->folders && files->paths && files->mtls;
     for (size_t i = 0; good && i < names->count; i++) {
         const char *path = names->items[i];
         if (strcmp(path, "-") == 0)
@@ -96,7 +140,7 @@ static bool list_files(tn_job *job, house_files *files)
         else if (tn_house_file_of(path) == TN_HOUSE_FILES)
             good = add_folder(files, path);
         else
-            good = add_file(files, strdup(path), tn_house_file_of(path), NULL);
+            good = add_named(files, path);
     }
     if (!good) {
         tn_fail_memory(&error);
@@ -110,6 +154,7 @@ static void clear_files(house_files *files)
     for (size_t i = 0; i < files->count; i++)
         free(files->paths[i]);
     free(files->paths);
+    free(files->mtls);
     free(files->folders);
     free(files->words);
 }
@@ -119,7 +164,8 @@ static bool measures_go_with_line(tn_job *job, const house_files *files)
     if (!settings_of(job)->measures || files->line)
         return true;
     tn_diagnostic *d = tn_job_usage(job, "--measures is about the house's line, which is not written");
-    tn_help(tn_job_diagnostics(job), d, "add `-o -` to write it to standard output; .json has the measures in any case");
+    tn_help(tn_job_diagnostics(job), d,
+            "add `-o -` to write it to standard output; .json has the measures in any case");
     return false;
 }
 
@@ -165,6 +211,7 @@ static void ask(tn_job *job, const house_files *files)
                                       .revision = s->revision,
                                       .has_north = s->north.given,
                                       .north = s->north.value,
+                                      .mtl = {files->mtls, files->mtl_count},
                                       .has_dpi = s->dpi.given,
                                       .dpi = s->dpi.value,
                                       .profile = (unsigned)s->profile,
@@ -194,15 +241,13 @@ static int run(const tn_command *command, const tn_settings *settings)
 
 #define SETTINGS house_settings
 #define WRITES                                                                                                         \
-    (TN_WRITES_STANDARD | TN_WRITES_PICTURES | TN_WRITES(JSON) | TN_WRITES(CSV) | TN_WRITES(OBJ) | TN_WRITES(PLY) |    \
-     TN_WRITES(GLB) | TN_WRITES(IFC) | TN_WRITES(DXF) | TN_WRITES_FOLDER)
+    (TN_WRITES_STANDARD | TN_WRITES_PICTURES | TN_WRITES(JSON) | TN_WRITES(CSV) | TN_WRITES(OBJ) | TN_WRITES(MTL) |    \
+     TN_WRITES(PLY) | TN_WRITES(GLB) | TN_WRITES(IFC) | TN_WRITES(DXF) | TN_WRITES_FOLDER)
 static const tn_option options[] = {
-    OUTPUTS(
-        files, WRITES,
-        "write to FILE, whose name says the format: .json, .csv, .obj, .ply, .glb, .ifc, .dxf, .svg, .pdf or .png; a "
-        "folder (with "
-        "a "
-        "/ at its end) gets all of them; may be repeated"),
+    OUTPUTS(files, WRITES,
+            "write to FILE, whose name says the format: .json, .csv, .obj (with an .mtl beside it), .ply, .glb, .ifc, "
+            ".dxf, "
+            ".svg, .pdf or .png; a folder (with a / at its end) gets all of them; may be repeated"),
     LIST("view", 0, "VIEW", views,
          "what is drawn: plan:STOREY, plan:roof, section:x=LENGTH, section:y=LENGTH, elevation:SIDE, axonometric or sheet (all of "
          "these, the default); may be repeated"),
@@ -212,7 +257,7 @@ static const tn_option options[] = {
            "draw at 1:N; by default at the largest usual scale at which everything fits on paper"),
     REAL("azimuth", 0, "DEGREES", azimuth, "where the axonometric view is seen from, about z (default 60)"),
     REAL("elevation", 0, "DEGREES", elevation, "and how far above the ground (default 30)"),
-    TEXT("title", 0, "TEXT", title, "the title of a picture or of an IFC file; by default the number of the house"),
+    TEXT("title", 0, "TEXT", title, "the title of a picture or of an IFC or GLB file; by default the number of the house"),
     TEXT("project", 0, "TEXT", project, "what a drawing is for, in its title block"),
     TEXT("date", 0, "TEXT", date, "when a drawing is from, in its title block; none unless given"),
     TEXT("revision", 0, "TEXT", revision, "which state of a drawing this is, in its title block"),
@@ -249,7 +294,8 @@ const tn_command tn_command_house = {
         "plan of rank P in a library of houses, and #R the house of rank R. Without -o the house's line is written, "
         "with --measures below what the file's measures are worth on it. "
         "JSON has everything, in whole nanometres, and the measures in feet or metres; CSV has the rooms with their areas; OBJ, PLY and GLB have the "
-        "house as one closed mesh in metres, in groups by what its parts are. IFC has it as a building model, in "
+        "house as one closed mesh in metres, OBJ and GLB with names by storey, room and part, and with glass that is seen "
+        "through. IFC has it as a building model, in "
         "millimetres or, if the form is, in feet. SVG, PDF, PNG and DXF are drawings to scale: "
         "a sheet of all, or those that --view names.",
     .example = "$ tartan house cottage \"14' none room:14' none ; 1 1 gable(9:12) 1 ; living\"\n"

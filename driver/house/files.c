@@ -18,10 +18,11 @@ static const struct {
 } kinds[TN_HOUSE_FILES] = {
     [TN_HOUSE_AS_LINE] = {NULL, TN_FILE_OTHER}, [TN_HOUSE_AS_JSON] = {".json", TN_FILE_JSON},
     [TN_HOUSE_AS_CSV] = {".csv", TN_FILE_CSV},  [TN_HOUSE_AS_PARTS] = {".parts.csv", TN_FILE_CSV},
-    [TN_HOUSE_AS_OBJ] = {".obj", TN_FILE_OBJ},  [TN_HOUSE_AS_PLY] = {".ply", TN_FILE_PLY},
-    [TN_HOUSE_AS_GLB] = {".glb", TN_FILE_GLB},  [TN_HOUSE_AS_IFC] = {".ifc", TN_FILE_IFC},
-    [TN_HOUSE_AS_DXF] = {".dxf", TN_FILE_DXF},  [TN_HOUSE_AS_SVG] = {".svg", TN_FILE_SVG},
-    [TN_HOUSE_AS_PDF] = {".pdf", TN_FILE_PDF},  [TN_HOUSE_AS_PNG] = {".png", TN_FILE_PNG},
+    [TN_HOUSE_AS_OBJ] = {".obj", TN_FILE_OBJ},  [TN_HOUSE_AS_MTL] = {".mtl", TN_FILE_MTL},
+    [TN_HOUSE_AS_PLY] = {".ply", TN_FILE_PLY},  [TN_HOUSE_AS_GLB] = {".glb", TN_FILE_GLB},
+    [TN_HOUSE_AS_IFC] = {".ifc", TN_FILE_IFC},  [TN_HOUSE_AS_DXF] = {".dxf", TN_FILE_DXF},
+    [TN_HOUSE_AS_SVG] = {".svg", TN_FILE_SVG},  [TN_HOUSE_AS_PDF] = {".pdf", TN_FILE_PDF},
+    [TN_HOUSE_AS_PNG] = {".png", TN_FILE_PNG},
 };
 
 const char *tn_house_file_ending(tn_house_file kind)
@@ -80,12 +81,9 @@ static tn_status write_text(const tn_house_filed *filed, tn_house_file kind, FIL
 {
     const tn_house *house = filed->house;
     tn_buffer text = {0};
-    tn_status status = kind == TN_HOUSE_AS_JSON    ? describe(filed, &text, error)
-                       : kind == TN_HOUSE_AS_CSV   ? tn_house_schedule(house, &text, error)
-                       : kind == TN_HOUSE_AS_PARTS ? tn_house_parts(house, filed->solids, &text, error)
-                                                   : tn_house_write(house, &text, error);
-    if (status == TN_OK && kind == TN_HOUSE_AS_LINE)
-        tn_buffer_append(&text, "\n", 1);
+    tn_status status = kind == TN_HOUSE_AS_JSON  ? describe(filed, &text, error)
+                       : kind == TN_HOUSE_AS_CSV ? tn_house_schedule(house, &text, error)
+                                                 : tn_house_parts(house, filed->solids, &text, error);
     if (status == TN_OK && text.failed)
         status = tn_fail_memory(error);
     if (status == TN_OK)
@@ -94,17 +92,37 @@ static tn_status write_text(const tn_house_filed *filed, tn_house_file kind, FIL
     return status;
 }
 
-static tn_status write_mesh(const tn_house_filed *filed, tn_house_file kind, FILE *out, tn_error *error)
+/* PLY has colours and no names. */
+static tn_status write_ply(const tn_house_filed *filed, FILE *out, tn_error *error)
 {
     tn_mesh mesh;
     unsigned char colours[TN_HOUSE_GROUPS_MAX][3];
-    tn_mesh_style style = {.unit = TN_MESH_UNIT_M, .colours = (const unsigned char(*)[3])colours};
+    const tn_mesh_style style = {.unit = TN_MESH_UNIT_M, .colours = (const unsigned char(*)[3])colours};
     tn_house_mesh_colours(filed->house->form, colours);
     tn_status status = tn_house_mesh(filed->house, filed->solids, &mesh, error);
     if (status == TN_OK)
+        status = tn_mesh_write_ply(&mesh, &style, out, error);
+    tn_mesh_clear(&mesh);
+    return status;
+}
+
+static tn_status write_named(const tn_house_filed *filed, tn_house_file kind, FILE *out, tn_error *error)
+{
+    tn_mesh mesh;
+    tn_mesh_model model;
+    const char *notes[] = {filed->line};
+    const char *line = kind == TN_HOUSE_AS_GLB ? filed->line : NULL; /* with other facts */
+    tn_status status = tn_house_model(filed->house, filed->solids, title_of(filed), line, &mesh, &model, error);
+    const tn_mesh_style style = {.notes = notes,
+                                 .note_count = line ? 0 : 1,
+                                 .unit = TN_MESH_UNIT_M,
+                                 .model = &model,
+                                 .mtl = filed->mtl ? filed->mtl : "house.mtl"};
+    if (status == TN_OK)
         status = kind == TN_HOUSE_AS_OBJ   ? tn_mesh_write_obj(&mesh, &style, out, error)
-                 : kind == TN_HOUSE_AS_PLY ? tn_mesh_write_ply(&mesh, &style, out, error)
+                 : kind == TN_HOUSE_AS_MTL ? tn_mesh_write_mtl(&model, out, error)
                                            : tn_mesh_write_glb(&mesh, &style, out, error);
+    tn_mesh_model_clear(&model);
     tn_mesh_clear(&mesh);
     return status;
 }
@@ -112,7 +130,6 @@ static tn_status write_mesh(const tn_house_filed *filed, tn_house_file kind, FIL
 static tn_status draw(const tn_house_filed *filed, tn_house_drawing *drawing, tn_house_file kind, FILE *out,
                       tn_error *error)
 {
-    tn_buffer line = {0};
     tn_picture to = {.format = kind == TN_HOUSE_AS_SVG   ? TN_CANVAS_SVG
                                : kind == TN_HOUSE_AS_PDF ? TN_CANVAS_PDF
                                : kind == TN_HOUSE_AS_DXF ? TN_CANVAS_DXF
@@ -120,15 +137,12 @@ static tn_status draw(const tn_house_filed *filed, tn_house_drawing *drawing, tn
                      .dpi = filed->dpi,
                      .profile = filed->profile,
                      .watch = filed->watch};
-    tn_status status = tn_house_write(filed->house, &line, error);
-    const char *notes[] = {line.data ? line.data : ""};
+    const char *notes[] = {filed->line};
     drawing->notes = notes;
-    if (status == TN_OK)
-        status = tn_house_draw(filed->house, filed->solids, drawing, &to, error);
+    tn_status status = tn_house_draw(filed->house, filed->solids, drawing, &to, error);
     if (status == TN_OK)
         fwrite(to.element, 1, to.size, out);
     free(to.element);
-    free(line.data);
     return status;
 }
 
@@ -154,13 +168,18 @@ static tn_status write_picture(const tn_house_filed *filed, tn_house_file kind, 
     return status == TN_OK ? draw(filed, &drawing, kind, out, error) : status;
 }
 
-tn_status tn_house_file_write(const tn_house_filed *filed, tn_house_file kind, FILE *out, tn_error *error)
+static tn_status write_known(const tn_house_filed *filed, tn_house_file kind, FILE *out, tn_error *error)
 {
     switch (kind) {
+    case TN_HOUSE_AS_LINE:
+        fprintf(out, "%s\n", filed->line);
+        return TN_OK;
     case TN_HOUSE_AS_OBJ:
-    case TN_HOUSE_AS_PLY:
+    case TN_HOUSE_AS_MTL:
     case TN_HOUSE_AS_GLB:
-        return write_mesh(filed, kind, out, error);
+        return write_named(filed, kind, out, error);
+    case TN_HOUSE_AS_PLY:
+        return write_ply(filed, out, error);
     case TN_HOUSE_AS_IFC:
         return write_model(filed, out, error);
     case TN_HOUSE_AS_DXF:
@@ -171,4 +190,24 @@ tn_status tn_house_file_write(const tn_house_filed *filed, tn_house_file kind, F
     default:
         return write_text(filed, kind, out, error);
     }
+}
+
+static bool says_line(tn_house_file kind)
+{
+    return kind == TN_HOUSE_AS_LINE || kind == TN_HOUSE_AS_OBJ || kind == TN_HOUSE_AS_GLB || tn_house_file_draws(kind);
+}
+
+tn_status tn_house_file_write(const tn_house_filed *filed, tn_house_file kind, FILE *out, tn_error *error)
+{
+    tn_buffer line = {0};
+    tn_house_filed known = *filed;
+    tn_status status = TN_OK;
+    if (!filed->line && says_line(kind)) {
+        status = tn_house_write(filed->house, &line, error);
+        known.line = line.data;
+    }
+    if (status == TN_OK)
+        status = write_known(&known, kind, out, error);
+    free(line.data);
+    return status;
 }

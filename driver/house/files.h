@@ -17,6 +17,7 @@ typedef enum tn_house_file {
     TN_HOUSE_AS_CSV,   /* the rooms with their areas */
     TN_HOUSE_AS_PARTS, /* what it is made of, and what that costs; CSV, too */
     TN_HOUSE_AS_OBJ,
+    TN_HOUSE_AS_MTL, /* the materials that .obj cites */
     TN_HOUSE_AS_PLY,
     TN_HOUSE_AS_GLB,
     TN_HOUSE_AS_IFC,
@@ -43,7 +44,9 @@ bool tn_house_file_draws(tn_house_file kind);
 typedef struct tn_house_filed {
     const tn_house *house;
     const tn_solids *solids;
-    const char *title; /* of sheets and of the building model; NULL: what the form says of itself */
+    const char *line;  /* the house's; NULL: not known yet */
+    const char *title; /* of sheets and of models; NULL: what the form says of itself */
+    const char *mtl;   /* of .obj: the file that has its materials; NULL: house.mtl */
     tn_views views;
     tn_drawing_says says; /* of drawings; the project of the building model, too */
     uint32_t scale, dpi; /* of drawings, 1:scale; 0: as it suits, 150 */

@@ -149,20 +149,21 @@ typedef enum tartan_house_format {
     TARTAN_HOUSE_JSON,  /* cells, faces, rooms, solids, parts and costs */
     TARTAN_HOUSE_ROOMS, /* rooms as CSV */
     TARTAN_HOUSE_PARTS, /* parts as CSV: number, area, volume, costs */
-    TARTAN_HOUSE_OBJ,   /* the mesh */
+    TARTAN_HOUSE_OBJ,   /* the mesh, with names by storey, room and part */
     TARTAN_HOUSE_PLY,
     TARTAN_HOUSE_GLB,
     TARTAN_HOUSE_IFC, /* IFC4: a building with its storeys, rooms and parts */
     TARTAN_HOUSE_DXF, /* drawings */
     TARTAN_HOUSE_SVG,
     TARTAN_HOUSE_PNG,
-    TARTAN_HOUSE_PDF
+    TARTAN_HOUSE_PDF,
+    TARTAN_HOUSE_MTL /* the materials of the OBJ */
 } tartan_house_format;
 
 /* What is drawn, and how. */
 typedef struct tartan_house_drawing {
     size_t size;
-    const char *title;         /* also of IFC; NULL: what the form says of itself */
+    const char *title;         /* also of IFC and GLB; NULL: what the form says of itself */
     const char *const *views;  /* plan:STOREY, section:x=LENGTH, section:y=LENGTH, elevation:SIDE, axonometric, sheet */
     size_t view_count;         /* 0: a sheet, which has all that one draws of a house */
     const char *cut;           /* the storey above which the axonometric view is lifted off; or NULL */
@@ -171,6 +172,7 @@ typedef struct tartan_house_drawing {
     double azimuth, elevation; /* of the axonometric view: degrees about z, and above the ground; with `camera` */
     uint32_t scale;            /* of pictures, 1:scale; 0: the largest usual one at which everything fits on paper */
     uint32_t dpi;              /* of a PNG; 0: 150 */
+    const char *mtl;           /* of an OBJ: the name of the file that has its materials; NULL: house.mtl */
 } tartan_house_drawing;
 TARTAN_SIZED(tartan_house_drawing)
 

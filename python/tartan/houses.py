@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import collections.abc
 import json
+import os
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Union
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 __all__ = ["Change", "House", "HouseLibrary", "Room"]
 
 FORMATS = {"json": lib.TARTAN_HOUSE_JSON, "rooms": lib.TARTAN_HOUSE_ROOMS, "parts": lib.TARTAN_HOUSE_PARTS,
-           "obj": lib.TARTAN_HOUSE_OBJ, "ply": lib.TARTAN_HOUSE_PLY, "glb": lib.TARTAN_HOUSE_GLB,
+           "obj": lib.TARTAN_HOUSE_OBJ, "mtl": lib.TARTAN_HOUSE_MTL, "ply": lib.TARTAN_HOUSE_PLY, "glb": lib.TARTAN_HOUSE_GLB,
            "ifc": lib.TARTAN_HOUSE_IFC, "dxf": lib.TARTAN_HOUSE_DXF, "svg": lib.TARTAN_HOUSE_SVG,
            "png": lib.TARTAN_HOUSE_PNG, "pdf": lib.TARTAN_HOUSE_PDF}
 
@@ -192,16 +193,17 @@ class House:
 
     def file(self, format: str, *, title: Optional[str] = None, views: Sequence[str] = (), cut: Optional[str] = None,
              bare: bool = False, azimuth: Optional[float] = None, elevation: Optional[float] = None, scale: int = 0,
-             dpi: int = 0, progress: Progress = None) -> bytes:
-        """The house as a file in memory: json, rooms, parts (CSV), obj, ply, glb, ifc, dxf, svg, png or pdf. views:
+             dpi: int = 0, mtl: Optional[str] = None, progress: Progress = None) -> bytes:
+        """The house as a file in memory: json, rooms, parts (CSV), obj, mtl (the materials of an obj; mtl= is the name
+        by which that cites them), ply, glb, ifc, dxf, svg, png or pdf. views:
         "plan:STOREY", "plan:roof", "section:x=LENGTH", "elevation:SIDE", "axonometric", "sheet"."""
         if format not in FORMATS:
             raise ValueError(f"houses are {', '.join(FORMATS)}, not {format!r}")
         drawing = ffi.new("tartan_house_drawing *", lib.tartan_house_drawing_init())
-        kept = [name(title), name(cut), [name(view) for view in views]]
+        kept = [name(title), name(cut), [name(view) for view in views], name(mtl)]
         array = ffi.new("const char *[]", kept[2]) if views else ffi.NULL
         drawing.title, drawing.cut, drawing.views, drawing.view_count = kept[0], kept[1], array, len(kept[2])
-        drawing.bare, drawing.scale, drawing.dpi = bare, scale, dpi
+        drawing.bare, drawing.scale, drawing.dpi, drawing.mtl = bare, scale, dpi, kept[3]
         if azimuth is not None or elevation is not None:
             drawing.camera = True
             drawing.azimuth = 60 if azimuth is None else azimuth
@@ -209,7 +211,11 @@ class House:
         return file(lib.tartan_house_file, self._handle, FORMATS[format], drawing, Watch(progress))
 
     def write(self, path: Path, **how: Any) -> None:
-        """Writes a file whose name says the format; see file()."""
+        """Writes a file whose name says the format; see file(). Beside an .obj is an .mtl, with its materials."""
+        stem, ending = os.path.splitext(os.fspath(path))
+        if ending.lower() == ".obj":
+            write(stem + ".mtl", lambda format: self.file(format))
+            how.setdefault("mtl", os.path.basename(stem) + ".mtl")
         write(path, lambda format: self.file(format, **how))
 
     @property

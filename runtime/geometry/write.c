@@ -25,7 +25,9 @@ tn_status tn_mesh_style_normals(const tn_mesh *mesh, const tn_mesh_style *style,
 
 void tn_mesh_style_colour(const tn_mesh_style *style, uint32_t group, unsigned char rgb[3])
 {
-    if (style->colours)
+    if (style->model)
+        memcpy(rgb, style->model->materials[style->model->pieces[group].material].rgb, 3);
+    else if (style->colours)
         memcpy(rgb, style->colours[group], 3);
     else
         tn_group_colour(group, rgb);
@@ -73,6 +75,37 @@ static void write_group(tn_text_out *out, const tn_mesh *mesh, uint32_t group, c
     *last = group;
 }
 
+/* `o` of a part: "ground/0.01-kitchen/window". The whole has no name here. */
+static void write_path(tn_text_out *out, const tn_mesh_model *model, uint32_t node, char between)
+{
+    uint32_t parent = model->nodes[node].parent;
+    if (parent > 0) {
+        write_path(out, model, parent, between);
+        tn_text_add(out, (const char[]){between, '\0'});
+    }
+    tn_text_word(out, model->nodes[node].name);
+    tn_text_flush(out, false);
+}
+
+static void write_piece(tn_text_out *out, const tn_mesh_model *model, uint32_t group, uint32_t *last)
+{
+    if (*last == group)
+        return;
+    const tn_mesh_piece *piece = &model->pieces[group];
+    if (*last == UINT32_MAX || model->pieces[*last].node != piece->node) {
+        tn_text_add(out, "o ");
+        write_path(out, model, piece->node, '/');
+        tn_text_add(out, "\ng ");
+        write_path(out, model, piece->node, ' ');
+        tn_text_add(out, "\n");
+    }
+    tn_text_add(out, "usemtl ");
+    tn_text_word(out, model->materials[piece->material].name);
+    tn_text_add(out, "\n");
+    tn_text_flush(out, false);
+    *last = group;
+}
+
 static void write_all(tn_text_out *out, const tn_mesh *mesh, const tn_mesh_style *style, const double *normals)
 {
     uint32_t last = UINT32_MAX;
@@ -83,12 +116,20 @@ static void write_all(tn_text_out *out, const tn_mesh *mesh, const tn_mesh_style
         tn_text_flush(out, false);
     }
     tn_text_add(out, style->y_up ? "# up: y\n" : "# up: z\n");
+    if (style->model && style->mtl) {
+        tn_text_add(out, "mtllib ");
+        tn_text_add(out, style->mtl);
+        tn_text_add(out, "\n");
+        tn_text_flush(out, false);
+    }
     for (size_t v = 0; v < mesh->vertex_count && !out->failed && !tn_watch_stopped_at(mesh->watch, v); v++)
         write_point(out, "v ", mesh->positions + 3 * v, style->y_up);
     for (size_t v = 0; normals && v < mesh->vertex_count && !out->failed && !tn_watch_stopped_at(mesh->watch, v); v++)
         write_point(out, "vn ", normals + 3 * v, style->y_up);
     for (size_t f = 0; f < mesh->face_count && !out->failed && !tn_watch_stopped_at(mesh->watch, f); f++) {
-        if (mesh->face_group)
+        if (style->model)
+            write_piece(out, style->model, mesh->face_group[f], &last);
+        else if (mesh->face_group)
             write_group(out, mesh, mesh->face_group[f], "", &last);
         write_obj_face(out, mesh, f, normals != NULL);
     }

@@ -5,7 +5,7 @@
 
 #include <stdio.h>
 
-#include "runtime/geometry/mesh.h"
+#include "runtime/geometry/mesh_model.h"
 
 /* What one unit of length is; the order of a field's units. */
 typedef enum tn_mesh_unit {
@@ -26,6 +26,8 @@ typedef struct tn_mesh_style {
     bool y_up;                         /* turn z up to y up (GLB always is, 3MF never) */
     tn_mesh_unit unit;                 /* 3MF says it, GLB is made metres; others have numbers alone */
     const unsigned char (*colours)[3]; /* [group_count] of PLY, GLB and 3MF, in sRGB; NULL: tn_group_colour */
+    const tn_mesh_model *model;        /* of OBJ and GLB: what its groups are; or NULL */
+    const char *mtl;                   /* of OBJ with a model: the file that its materials are in */
 } tn_mesh_style;
 
 /* The colour of a group in the style. */
@@ -34,14 +36,15 @@ void tn_mesh_style_colour(const tn_mesh_style *style, uint32_t group, unsigned c
 /* The normals that the style asks for, or NULL. The caller frees them. TN_MEMORY. */
 tn_status tn_mesh_style_normals(const tn_mesh *mesh, const tn_mesh_style *style, double **normals, tn_error *error);
 
-/* Text; coordinates to twelve digits of the largest one. Groups are `g` and lines `l`. */
+/* Text; coordinates with the fewest digits that read back. Groups are `g` and lines `l`; of a model each part is `o`,
+ * with the names on the way to it as `g`, and materials are `usemtl`. */
 tn_status tn_mesh_write_obj(const tn_mesh *mesh, const tn_mesh_style *style, FILE *out, tn_error *error);
 
 /* Binary, little-endian, doubles; faces have a colour where there are groups, lines are the element `edge`. */
 tn_status tn_mesh_write_ply(const tn_mesh *mesh, const tn_mesh_style *style, FILE *out, tn_error *error);
 
 /* glTF 2.0 in one file: metres (one where there is no unit) and y up by its specification, floats; faces are triangles;
- * a primitive and a material for each group. */
+ * a primitive and a material for each group. Of a model, a node for each of its own, with arrays of its own. */
 tn_status tn_mesh_write_glb(const tn_mesh *mesh, const tn_mesh_style *style, FILE *out, tn_error *error);
 
 /* 3MF: millimetres where there is no unit; one object, or, where the style has no colours, one for each group of faces.

@@ -62,134 +62,314 @@ static void say_asset(tn_json *json, const tn_mesh_style *style)
     tn_json_object_end(json);
 }
 
-/* One scene, with one node, which has the one mesh. */
-static void say_scene(tn_json *json)
+/* ---- what is written: a mesh for each part, which has the groups from one to another and vertices of its own */
+
+typedef struct glb_part {
+    uint32_t node, group_first, group_end; /* node: of the model */
+    size_t vertex_first, vertex_count;
+    float low[3], high[3];
+} glb_part;
+
+/* Without a model there is one part, with all vertices in their order. */
+typedef struct glb {
+    const tn_mesh *mesh;
+    const tn_mesh_style *style;
+    const double *normals;
+    uint32_t groups, part_count;
+    glb_part *parts;
+    size_t *counts;     /* [groups] of faces */
+    uint32_t *vertices; /* of the mesh, in the order in which they are written; NULL: all of them */
+    uint32_t *corners;  /* [faces][3] counted in their parts; NULL: those of the mesh */
+    size_t vertex_count;
+} glb;
+
+static void clear(glb *g)
+{
+    free(g->parts);
+    free(g->counts);
+    free(g->vertices);
+    free(g->corners);
+}
+
+static void count_faces(glb *g)
+{
+    for (size_t f = 0; f < g->mesh->face_count; f++)
+        g->counts[g->mesh->face_group ? g->mesh->face_group[f] : 0]++;
+}
+
+/* Those of the groups that have faces, a part for each node. */
+static void find_parts(glb *g)
+{
+    const tn_mesh_model *model = g->style->model;
+    if (!model) {
+        g->parts[g->part_count++] = (glb_part){.group_end = g->groups, .vertex_count = g->mesh->vertex_count};
+        return;
+    }
+    for (uint32_t group = 0; group < g->groups; group++) {
+        uint32_t node = model->pieces[group].node;
+        if (!g->counts[group])
+            continue;
+        if (g->part_count == 0 || g->parts[g->part_count - 1].node != node)
+            g->parts[g->part_count++] = (glb_part){.node = node, .group_first = group};
+        g->parts[g->part_count - 1].group_end = group + 1;
+    }
+}
+
+/* The vertices that each part uses; those that several use are there several times. */
+static tn_status find_vertices(glb *g, tn_error *error)
+{
+    const tn_mesh *mesh = g->mesh;
+    uint32_t *seen = calloc(mesh->vertex_count + 1, sizeof *seen), /* the last part that has it, counted from 1 */
+        *local = malloc((mesh->vertex_count + 1) * sizeof *local);
+    g->vertices = malloc((3 * mesh->face_count + 1) * sizeof *g->vertices);
+    g->corners = malloc((3 * mesh->face_count + 1) * sizeof *g->corners);
+    tn_status status = seen && local && g->vertices && g->corners ? TN_OK : tn_fail_memory(error);
+    size_t corner = 0;
+    g->vertex_count = 0;
+    for (uint32_t p = 0; status == TN_OK && p < g->part_count; p++) {
+        glb_part *part = &g->parts[p];
+        size_t end = corner;
+        for (uint32_t group = part->group_first; group < part->group_end; group++)
+            end += 3 * g->counts[group];
+        part->vertex_first = g->vertex_count;
+        for (; corner < end; corner++) {
+            uint32_t v = mesh->corners[corner];
+            if (seen[v] != p + 1) {
+                seen[v] = p + 1;
+                local[v] = (uint32_t)(g->vertex_count - part->vertex_first);
+                g->vertices[g->vertex_count++] = v;
+            }
+            g->corners[corner] = local[v];
+        }
+        part->vertex_count = g->vertex_count - part->vertex_first;
+    }
+    free(seen);
+    free(local);
+    return status;
+}
+
+static tn_status gather(glb *g, tn_error *error)
+{
+    g->groups = g->mesh->face_group ? g->mesh->group_count : 1;
+    g->vertex_count = g->mesh->vertex_count;
+    g->counts = calloc((size_t)g->groups + 1, sizeof *g->counts);
+    g->parts = malloc(((size_t)g->groups + 1) * sizeof *g->parts);
+    if (!g->counts || !g->parts)
+        return tn_fail_memory(error);
+    count_faces(g);
+    find_parts(g);
+    return g->style->model ? find_vertices(g, error) : TN_OK;
+}
+
+/* ---- nodes */
+
+/* Children in their order: of each node the first, and the next sibling; 0: there is none. */
+static uint32_t *find_children(const tn_mesh_model *model)
+{
+    uint32_t *links = calloc(2 * model->node_count + 1, sizeof *links),
+             *next = links ? links + model->node_count : NULL;
+    for (size_t i = model->node_count; links && i-- > 1;) {
+        next[i] = links[model->nodes[i].parent];
+        links[model->nodes[i].parent] = (uint32_t)i;
+    }
+    return links;
+}
+
+static void say_node(tn_json *json, const tn_mesh_model *model, uint32_t node, const uint32_t *links, const glb *g,
+                     uint32_t *part)
+{
+    tn_json_object(json, NULL);
+    tn_json_string(json, "name", model->nodes[node].name);
+    if (*part < g->part_count && g->parts[*part].node == node)
+        tn_json_count(json, "mesh", (*part)++);
+    if (links[node]) {
+        tn_json_list(json, "children");
+        for (uint32_t child = links[node]; child; child = links[model->node_count + child])
+            tn_json_count(json, NULL, child);
+        tn_json_list_end(json);
+    }
+    if (model->nodes[node].facts)
+        tn_json_written_value(json, "extras", model->nodes[node].facts);
+    tn_json_object_end(json);
+}
+
+static tn_status say_nodes(tn_json *json, const glb *g, tn_error *error)
+{
+    const tn_mesh_model *model = g->style->model;
+    uint32_t *links = model ? find_children(model) : NULL, part = 0;
+    if (model && !links)
+        return tn_fail_memory(error);
+    tn_json_list(json, "nodes");
+    if (!model) {
+        tn_json_object(json, NULL);
+        tn_json_count(json, "mesh", 0);
+        tn_json_object_end(json);
+    }
+    for (uint32_t i = 0; model && i < model->node_count; i++)
+        say_node(json, model, i, links, g, &part);
+    tn_json_list_end(json);
+    free(links);
+    return TN_OK;
+}
+
+/* One scene, of one node, below which all others are. */
+static void say_scene(tn_json *json, const tn_mesh_model *model)
 {
     tn_json_count(json, "scene", 0);
     tn_json_list(json, "scenes");
     tn_json_object(json, NULL);
+    if (model)
+        tn_json_string(json, "name", model->nodes[0].name);
     tn_json_list(json, "nodes");
     tn_json_count(json, NULL, 0);
     tn_json_list_end(json);
-    tn_json_object_end(json);
-    tn_json_list_end(json);
-    tn_json_list(json, "nodes");
-    tn_json_object(json, NULL);
-    tn_json_count(json, "mesh", 0);
+    if (model && model->facts)
+        tn_json_written_value(json, "extras", model->facts);
     tn_json_object_end(json);
     tn_json_list_end(json);
 }
 
-static void say_primitives(tn_json *json, const size_t *counts, uint32_t groups, bool normals)
+/* ---- meshes: positions (and normals) of all parts are the first accessors, corners of all groups those behind */
+
+static void say_primitives(tn_json *json, const glb *g, uint32_t number, uint32_t *made)
 {
-    uint32_t accessor = normals ? 2 : 1, made = 0;
-    tn_json_list(json, "meshes");
-    tn_json_object(json, NULL);
+    const glb_part *part = &g->parts[number];
+    uint32_t each = g->normals ? 2 : 1;
     tn_json_list(json, "primitives");
-    for (uint32_t g = 0; g < groups; g++) {
-        if (!counts[g])
+    for (uint32_t group = part->group_first; group < part->group_end; group++) {
+        if (!g->counts[group])
             continue;
         tn_json_object(json, NULL);
         tn_json_object(json, "attributes");
-        tn_json_count(json, "POSITION", 0);
-        if (normals)
-            tn_json_count(json, "NORMAL", 1);
+        tn_json_count(json, "POSITION", each * number);
+        if (g->normals)
+            tn_json_count(json, "NORMAL", each * number + 1);
         tn_json_object_end(json);
-        tn_json_count(json, "indices", accessor + made);
-        tn_json_count(json, "material", made++);
+        tn_json_count(json, "indices", each * g->part_count + *made);
+        tn_json_count(json, "material", g->style->model ? g->style->model->pieces[group].material : *made);
+        (*made)++;
         tn_json_object_end(json);
     }
     tn_json_list_end(json);
-    tn_json_object_end(json);
+}
+
+static void say_meshes(tn_json *json, const glb *g)
+{
+    uint32_t made = 0;
+    if (g->part_count == 0)
+        return;
+    tn_json_list(json, "meshes");
+    for (uint32_t p = 0; p < g->part_count; p++) {
+        tn_json_object(json, NULL);
+        if (g->style->model)
+            tn_json_string(json, "name", g->style->model->nodes[g->parts[p].node].name);
+        say_primitives(json, g, p, &made);
+        tn_json_object_end(json);
+    }
     tn_json_list_end(json);
 }
 
-static void say_material(tn_json *json, const unsigned char rgb[3])
+/* Glass is seen through, and has its two faces; other parts are seen from inside, too, where those before them are
+ * hidden. */
+static void say_material(tn_json *json, const char *name, const unsigned char rgb[3], double opacity)
 {
     tn_json_object(json, NULL);
-    tn_json_bool(json, "doubleSided", true);
+    if (name)
+        tn_json_string(json, "name", name);
+    if (opacity < 1)
+        tn_json_string(json, "alphaMode", "BLEND");
+    else
+        tn_json_bool(json, "doubleSided", true);
     tn_json_object(json, "pbrMetallicRoughness");
     tn_json_list(json, "baseColorFactor");
     for (int k = 0; k < 3; k++)
         tn_json_rounded(json, NULL, linear(rgb[k]), 6);
-    tn_json_count(json, NULL, 1);
+    tn_json_number(json, NULL, opacity);
     tn_json_list_end(json);
     tn_json_count(json, "metallicFactor", 0);
-    tn_json_number(json, "roughnessFactor", 0.9);
+    tn_json_number(json, "roughnessFactor", opacity < 1 ? 0.1 : 0.9);
     tn_json_object_end(json);
     tn_json_object_end(json);
 }
 
-static void say_materials(tn_json *json, const tn_mesh_style *style, const size_t *counts, uint32_t groups)
+static void say_materials(tn_json *json, const glb *g)
 {
+    const tn_mesh_model *model = g->style->model;
     tn_json_list(json, "materials");
-    for (uint32_t g = 0; g < groups; g++) {
+    for (size_t i = 0; model && i < model->material_count; i++)
+        say_material(json, model->materials[i].name, model->materials[i].rgb, model->materials[i].opacity);
+    for (uint32_t group = 0; !model && group < g->groups; group++) {
         unsigned char rgb[3] = {204, 204, 196};
-        if (!counts[g])
+        if (!g->counts[group])
             continue;
-        if (groups > 1)
-            tn_mesh_style_colour(style, g, rgb);
-        say_material(json, rgb);
+        if (g->groups > 1)
+            tn_mesh_style_colour(g->style, group, rgb);
+        say_material(json, g->mesh->group_names ? g->mesh->group_names[group] : NULL, rgb, 1);
     }
     tn_json_list_end(json);
 }
 
 enum { FLOATS = 5126, WORDS = 5125, VERTICES = 34962, CORNERS = 34963 }; /* of OpenGL, which glTF cites */
 
-/* Points, or corners from a byte on; the caller ends it. */
+/* Points, or corners, from a byte on; the caller ends it. */
 static void begin_accessor(tn_json *json, size_t view, size_t offset, int type, size_t count)
 {
     tn_json_object(json, NULL);
     tn_json_count(json, "bufferView", view);
-    if (type == WORDS)
+    if (type == WORDS || offset)
         tn_json_count(json, "byteOffset", offset);
     tn_json_whole(json, "componentType", type);
     tn_json_count(json, "count", count);
     tn_json_string(json, "type", type == WORDS ? "SCALAR" : "VEC3");
 }
 
-static void say_accessors(tn_json *json, const tn_mesh *mesh, const float low[3], const float high[3],
-                          const size_t *counts, uint32_t groups, bool normals)
+static void say_accessors(tn_json *json, const glb *g)
 {
     size_t corners = 0;
     tn_json_list(json, "accessors");
-    begin_accessor(json, 0, 0, FLOATS, mesh->vertex_count);
-    floats(json, "min", low);
-    floats(json, "max", high);
-    tn_json_object_end(json);
-    if (normals) {
-        begin_accessor(json, 1, 0, FLOATS, mesh->vertex_count);
+    for (uint32_t p = 0; p < g->part_count; p++) {
+        const glb_part *part = &g->parts[p];
+        begin_accessor(json, 0, 12 * part->vertex_first, FLOATS, part->vertex_count);
+        floats(json, "min", part->low);
+        floats(json, "max", part->high);
+        tn_json_object_end(json);
+        if (!g->normals)
+            continue;
+        begin_accessor(json, 1, 12 * part->vertex_first, FLOATS, part->vertex_count);
         tn_json_object_end(json);
     }
-    for (uint32_t g = 0; g < groups; g++) {
-        if (!counts[g])
+    for (uint32_t group = 0; group < g->groups; group++) {
+        if (!g->counts[group])
             continue;
-        begin_accessor(json, normals ? 2 : 1, 4 * corners, WORDS, 3 * counts[g]);
+        begin_accessor(json, g->normals ? 2 : 1, 4 * corners, WORDS, 3 * g->counts[group]);
         tn_json_object_end(json);
-        corners += 3 * counts[g];
+        corners += 3 * g->counts[group];
     }
     tn_json_list_end(json);
 }
 
-static void say_view(tn_json *json, size_t offset, size_t length, int target)
+/* Points that several accessors have need their stride (3.6.2.4). */
+static void say_view(tn_json *json, size_t offset, size_t length, int target, bool strided)
 {
     tn_json_object(json, NULL);
     tn_json_count(json, "buffer", 0);
     if (offset)
         tn_json_count(json, "byteOffset", offset);
     tn_json_count(json, "byteLength", length);
+    if (strided)
+        tn_json_count(json, "byteStride", 12);
     tn_json_whole(json, "target", target);
     tn_json_object_end(json);
 }
 
-static void say_buffers(tn_json *json, const tn_mesh *mesh, bool normals)
+static void say_buffers(tn_json *json, const glb *g)
 {
-    size_t points = 12 * mesh->vertex_count, corners = 12 * mesh->face_count, offset = normals ? 2 * points : points;
+    size_t points = 12 * g->vertex_count, corners = 12 * g->mesh->face_count, offset = g->normals ? 2 * points : points;
     tn_json_list(json, "bufferViews");
-    say_view(json, 0, points, VERTICES);
-    if (normals)
-        say_view(json, points, points, VERTICES);
-    say_view(json, offset, corners, CORNERS);
+    say_view(json, 0, points, VERTICES, g->part_count > 1);
+    if (g->normals)
+        say_view(json, points, points, VERTICES, g->part_count > 1);
+    say_view(json, offset, corners, CORNERS, false);
     tn_json_list_end(json);
     tn_json_list(json, "buffers");
     tn_json_object(json, NULL);
@@ -198,32 +378,53 @@ static void say_buffers(tn_json *json, const tn_mesh *mesh, bool normals)
     tn_json_list_end(json);
 }
 
-static void fill(const tn_mesh *mesh, double scale, const double *normals, const size_t *counts, uint32_t groups,
-                 uint8_t *binary, float low[3], float high[3])
+/* ---- arrays */
+
+static const double *vertex_in(const glb *g, const double *values, size_t i)
 {
-    uint8_t *to = binary;
-    for (size_t v = 0; v < mesh->vertex_count && !tn_watch_stopped_at(mesh->watch, v); v++) {
+    return values + 3 * (g->vertices ? g->vertices[i] : i);
+}
+
+static void fill_part(const glb *g, glb_part *part, double scale, uint8_t **to)
+{
+    for (size_t i = 0; i < part->vertex_count && !tn_watch_stopped_at(g->mesh->watch, i); i++) {
         float q[3];
-        turned(mesh->positions + 3 * v, scale, q);
+        turned(vertex_in(g, g->mesh->positions, part->vertex_first + i), scale, q);
         for (int k = 0; k < 3; k++) {
-            low[k] = v && low[k] < q[k] ? low[k] : q[k];
-            high[k] = v && high[k] > q[k] ? high[k] : q[k];
+            part->low[k] = i && part->low[k] < q[k] ? part->low[k] : q[k];
+            part->high[k] = i && part->high[k] > q[k] ? part->high[k] : q[k];
         }
-        put_floats(&to, q, 3);
+        put_floats(to, q, 3);
     }
-    for (size_t v = 0; normals && v < mesh->vertex_count && !tn_watch_stopped_at(mesh->watch, v); v++) {
-        float q[3];
-        turned(normals + 3 * v, 1, q);
-        put_floats(&to, q, 3);
-    }
-    for (uint32_t g = 0; g < groups; g++) {
-        for (size_t f = 0; counts[g] && f < mesh->face_count && !tn_watch_stopped_at(mesh->watch, f); f++) {
-            if (mesh->face_group && mesh->face_group[f] != g)
+}
+
+/* Group by group, which is the order of a model's faces already. */
+static void fill_corners(const glb *g, uint8_t *to)
+{
+    const tn_mesh *mesh = g->mesh;
+    for (size_t i = 0; g->corners && i < 3 * mesh->face_count; i++, to += 4)
+        tn_put_u32(to, g->corners[i]);
+    for (uint32_t group = 0; !g->corners && group < g->groups; group++) {
+        for (size_t f = 0; g->counts[group] && f < mesh->face_count && !tn_watch_stopped_at(mesh->watch, f); f++) {
+            if (mesh->face_group && mesh->face_group[f] != group)
                 continue;
             for (int i = 0; i < 3; i++, to += 4)
                 tn_put_u32(to, mesh->corners[3 * f + (size_t)i]);
         }
     }
+}
+
+static void fill(glb *g, uint8_t *binary)
+{
+    uint8_t *to = binary;
+    for (uint32_t p = 0; p < g->part_count; p++)
+        fill_part(g, &g->parts[p], metres(g->style->unit), &to);
+    for (size_t i = 0; g->normals && i < g->vertex_count && !tn_watch_stopped_at(g->mesh->watch, i); i++) {
+        float q[3];
+        turned(vertex_in(g, g->normals, i), 1, q);
+        put_floats(&to, q, 3);
+    }
+    fill_corners(g, to);
 }
 
 static tn_status write_chunks(FILE *out, tn_buffer *json, const uint8_t *binary, size_t size, tn_error *error)
@@ -250,38 +451,40 @@ static tn_status write_chunks(FILE *out, tn_buffer *json, const uint8_t *binary,
     return TN_OK;
 }
 
-static tn_status write_triangles(const tn_mesh *mesh, const tn_mesh_style *style, const double *normals, FILE *out,
-                                 tn_error *error)
+static tn_status write_json(glb *g, tn_buffer *text, tn_error *error)
 {
-    uint32_t groups = mesh->face_group ? mesh->group_count : 1;
-    size_t points = 12 * mesh->vertex_count * (normals ? 2 : 1), size = points + 12 * mesh->face_count;
+    tn_json json = tn_json_text(text, TN_JSON_TIGHT);
+    tn_json_object(&json, NULL);
+    say_asset(&json, g->style);
+    say_scene(&json, g->style->model);
+    tn_status status = say_nodes(&json, g, error);
+    say_meshes(&json, g);
+    say_materials(&json, g);
+    say_accessors(&json, g);
+    say_buffers(&json, g);
+    tn_json_object_end(&json);
+    return status == TN_OK && text->failed ? tn_fail_memory(error) : status;
+}
+
+static tn_status write_triangles(glb *g, FILE *out, tn_error *error)
+{
     tn_buffer text = {0};
-    size_t *counts = calloc(groups + 1, sizeof *counts);
-    uint8_t *binary = malloc(size + 1);
-    tn_status status = TN_OK;
-    if (!counts || !binary) {
+    tn_status status = gather(g, error);
+    size_t size = 12 * g->vertex_count * (g->normals ? 2 : 1) + 12 * g->mesh->face_count;
+    uint8_t *binary = status == TN_OK ? malloc(size + 1) : NULL;
+    if (status == TN_OK && !binary)
         status = tn_fail_memory(error);
-    } else {
-        float low[3] = {0}, high[3] = {0};
-        for (size_t f = 0; f < mesh->face_count; f++)
-            counts[mesh->face_group ? mesh->face_group[f] : 0]++;
-        fill(mesh, metres(style->unit), normals, counts, groups, binary, low, high);
-        tn_json json = tn_json_text(&text, TN_JSON_TIGHT);
-        tn_json_object(&json, NULL);
-        say_asset(&json, style);
-        say_scene(&json);
-        say_primitives(&json, counts, groups, normals != NULL);
-        say_materials(&json, style, counts, groups);
-        say_accessors(&json, mesh, low, high, counts, groups, normals != NULL);
-        say_buffers(&json, mesh, normals != NULL);
-        tn_json_object_end(&json);
-        status = text.failed ? tn_fail_memory(error) : tn_watch_check(mesh->watch, error);
-        if (status == TN_OK)
-            status = write_chunks(out, &text, binary, size, error);
+    if (status == TN_OK) {
+        fill(g, binary);
+        status = tn_watch_check(g->mesh->watch, error);
     }
+    if (status == TN_OK)
+        status = write_json(g, &text, error);
+    if (status == TN_OK)
+        status = write_chunks(out, &text, binary, size, error);
     free(text.data);
-    free(counts);
     free(binary);
+    clear(g);
     return status;
 }
 
@@ -293,7 +496,7 @@ tn_status tn_mesh_write_glb(const tn_mesh *mesh, const tn_mesh_style *style, FIL
             return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a GLB file takes triangles only");
     tn_status status = tn_mesh_style_normals(mesh, style, &normals, error);
     if (status == TN_OK)
-        status = write_triangles(mesh, style, normals, out, error);
+        status = write_triangles(&(glb){.mesh = mesh, .style = style, .normals = normals}, out, error);
     free(normals);
     return status;
 }

@@ -35,10 +35,23 @@ void tn_text_flush(tn_text_out *out, bool all)
 
 void tn_text_add(tn_text_out *out, const char *text)
 {
-    size_t size = strlen(text), room = sizeof out->bytes - out->used;
-    size = size < room ? size : room;
+    size_t size = strlen(text);
+    for (size_t room; size > (room = sizeof out->bytes - out->used); text += room, size -= room) {
+        memcpy(out->bytes + out->used, text, room);
+        out->used += room;
+        tn_text_flush(out, true);
+    }
     memcpy(out->bytes + out->used, text, size);
     out->used += size;
+}
+
+void tn_text_word(tn_text_out *out, const char *text)
+{
+    for (const char *c = text; *c; c++) {
+        if (out->used == sizeof out->bytes)
+            tn_text_flush(out, true);
+        out->bytes[out->used++] = (char)((unsigned char)*c <= ' ' ? '_' : *c);
+    }
 }
 
 /* The digits of a number, the last at end[-1]; where they begin. */

@@ -22,6 +22,9 @@ typedef struct tn_text_out {
 void tn_text_begin(tn_text_out *out, FILE *stream, double largest);
 
 void tn_text_add(tn_text_out *out, const char *text);
+
+/* With `_` for blanks, of which a word of such files has none. */
+void tn_text_word(tn_text_out *out, const char *text);
 void tn_text_whole(tn_text_out *out, uint64_t number);
 void tn_text_decimal(tn_text_out *out, double number);
 

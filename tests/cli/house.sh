@@ -225,7 +225,7 @@ if grep -q '^TARTAN_WITH_DRAW:BOOL=ON' "$(dirname "$TARTAN")/CMakeCache.txt"; th
             "$([ "$view" = plan:ground ] || echo yes)"
     done
     "$TARTAN" house "$files/cabins.plan" '#10:77' -o "$scratch/all/"
-    is 'a folder of all files' "$(cd "$scratch/all" && echo *)" 'house.csv house.dxf house.glb house.ifc house.json house.obj house.parts.csv house.pdf house.ply house.png house.svg'
+    is 'a folder of all files' "$(cd "$scratch/all" && echo *)" 'house.csv house.dxf house.glb house.ifc house.json house.mtl house.obj house.parts.csv house.pdf house.ply house.png house.svg'
 fi
 
 # Houses drawn at random, from all plans and from one; libraries of too many plans.

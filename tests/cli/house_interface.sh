@@ -41,7 +41,7 @@ print(json.load(sys.stdin)["by_length"].get("2", "0"))')"
 for c in map(json.loads, sys.stdin): print(c["kind"], c["where"], c["from"], c["to"], c["house"], sep="\t")')"
     is "$library: least" "$(asked least "$3" 4 | cut -f2)" "$("$TARTAN" best "$file" "${in[@]}" 4 --least "$3" | grep -v '^#')"
     is "$library: most" "$(asked most "$3" 4 | cut -f2)" "$("$TARTAN" best "$file" "${in[@]}" 4 --most "$3" | grep -v '^#')"
-    for format in json csv parts.csv obj ply glb ifc dxf svg png pdf; do
+    for format in json csv parts.csv obj mtl ply glb ifc dxf svg png pdf; do
         asked file $format "$line" >"$scratch/asked"
         "$TARTAN" house "$file" "$line" -o "$scratch/written.$format"
         cmp "$scratch/asked" "$scratch/written.$format" || fail "$library: $format is another file"

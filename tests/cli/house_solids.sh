@@ -50,7 +50,7 @@ for line in open(sys.argv[1]):
     if word == "v":
         points.append(tuple(map(float, rest)))
     elif word == "g":
-        group = rest[0]
+        group = rest[-1]
     elif word == "f":
         corners = [points[int(r.split("/")[0]) - 1] for r in rest]
         if len({c[0] for c in corners}) == 1 and min(c[2] for c in corners) >= 2.7432:

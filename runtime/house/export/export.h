@@ -4,8 +4,9 @@
 
 #include <stdio.h>
 
-#include "runtime/geometry/mesh.h"
+#include "runtime/geometry/mesh_model.h"
 #include "runtime/house/model/aspect.h"
+#include "runtime/house/model/model.h"
 
 /* The boundary of the house, closed and two-manifold, in triangles; metres, z up. Its groups are the kinds of parts
  * (tn_solid_kind), then the materials of the form; a face of a part that has a material is in that one's. Clear it in
@@ -15,6 +16,17 @@ tn_status tn_house_mesh(const tn_house *house, const tn_solids *solids, tn_mesh 
 /* Red, green and blue of each group. */
 #define TN_HOUSE_GROUPS_MAX (TN_SOLID_COUNT + TN_MATERIALS_MAX)
 void tn_house_mesh_colours(const tn_house_form *form, unsigned char colours[TN_HOUSE_GROUPS_MAX][3]);
+
+/* The blocks of a house, with these groups. Clear them in any case. TN_MEMORY. */
+tn_status tn_house_blocks(const tn_house *house, const tn_solids *solids, tn_blocks *blocks, tn_error *error);
+
+/* The same mesh as a tree of parts: below the house its storeys and its roof; below a storey what belongs to it (decks,
+ * posts, and what stands between two rooms) and its rooms, "0.01-kitchen"; below a room its walls, each of its windows
+ * and doors and what stands in it. Panes, and leaves that are glazed, are glass, which is seen through.
+ * If the house's line is given, facts are said: of the house the line, areas in square metres and, if materials have prices, costs; of a room its function,
+ * number and areas. Clear both in any case. TN_MEMORY. */
+tn_status tn_house_model(const tn_house *house, const tn_solids *solids, const char *name, const char *line,
+                         tn_mesh *mesh, tn_mesh_model *model, tn_error *error);
 
 /* What a building model says besides the house. name: what the house is called. seed: what identifiers are made of,
  * besides the part's place in the house, so that a part keeps its own in the next version of the house. north: as

@@ -33,10 +33,12 @@ static uint32_t group_of(const tn_house *house, const tn_house_block *b)
     return material == TN_NO_RECORD ? b->kind : TN_SOLID_COUNT + material - house->form->record->material_first;
 }
 
-static void group_blocks(const tn_house *house, tn_blocks *blocks)
+tn_status tn_house_blocks(const tn_house *house, const tn_solids *solids, tn_blocks *blocks, tn_error *error)
 {
-    for (size_t i = 0; tn_form_has_costs(house->form) && i < blocks->count; i++)
+    tn_status status = tn_blocks_of(house, solids, blocks, error);
+    for (size_t i = 0; status == TN_OK && tn_form_has_costs(house->form) && i < blocks->count; i++)
         blocks->items[i].group = group_of(house, &blocks->items[i]);
+    return status;
 }
 
 static tn_status name_groups(const tn_house_form *form, tn_mesh *mesh, tn_error *error)
@@ -56,9 +58,8 @@ static tn_status name_groups(const tn_house_form *form, tn_mesh *mesh, tn_error 
 tn_status tn_house_mesh(const tn_house *house, const tn_solids *solids, tn_mesh *mesh, tn_error *error)
 {
     tn_blocks blocks;
-    tn_status status = tn_blocks_of(house, solids, &blocks, error);
+    tn_status status = tn_house_blocks(house, solids, &blocks, error);
     *mesh = (tn_mesh){0};
-    group_blocks(house, &blocks);
     if (status == TN_OK)
         status = tn_blocks_mesh(&blocks, TN_SOLID_COUNT + house->form->record->material_count, mesh, error);
     if (status == TN_OK)

@@ -242,11 +242,11 @@ static void writes_files(void **state)
 {
     (void)state;
     static const char *const beginnings[] = {"{\n  \"house\"", "function", "part",  "",        "ply\n", "glTF",
-                                             "ISO-10303-21",   "",         "<?xml", "\x89PNG", "%PDF"};
+                                             "ISO-10303-21",   "",         "<?xml", "\x89PNG", "%PDF",   "newmtl "};
     tartan_module *module = compile();
     tartan_house_library *library = open_library(module, "all");
     tartan_house *house = read_house(library, hut);
-    for (int format = TARTAN_HOUSE_JSON; format <= TARTAN_HOUSE_PDF; format++)
+    for (int format = TARTAN_HOUSE_JSON; format <= TARTAN_HOUSE_MTL; format++)
         begins(house, (tartan_house_format)format, beginnings[format]);
     tartan_house_drawing drawing = tartan_house_drawing_init();
     const char *views[] = {"plan:ground", "axonometric"};

@@ -61,7 +61,7 @@ ASKING(house, "hut.plan",
        "form cells of row {\n  storey ground 3m\n  wall 300mm\n  partition 100mm\n  deck 250mm\n  roof 200mm\n"
        "  function bedroom at cell(rooms)\n  face cell(any) outside = wall\n}\n",
        "house",
-       "{\"house\": \"4m room:4m\", \"files\": [\"json\", \"csv\", \"parts.csv\", \"obj\", \"glb\", \"ifc\", \"dxf\"]}",
+       "{\"house\": \"4m room:4m\", \"files\": [\"json\", \"csv\", \"parts.csv\", \"obj\", \"mtl\", \"glb\", \"ifc\", \"dxf\"]}",
        "{\"house\": \"4m room:4m | 4m room:4m\"}")
 
 static void test_explain_solid(void **state)
