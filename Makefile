@@ -9,7 +9,7 @@ SECONDS ?= 600
 FIRST ?= $(shell date +%s)
 TEST = ctest --test-dir build --output-on-failure --timeout 1200 -j $(TEST_JOBS)
 
-.PHONY: help packages build demo check check-long check-parts check-editor check-models check-report check-studio check-studio-quick check-scale check-sanitizers check-arm check-arm-syntax wasm check-wasm python check-python site check-site lint package check-package bench bench-place bench-scale bench-studio bench-python fuzz search install uninstall clean
+.PHONY: help packages build demo check check-long check-parts check-editor check-models check-report check-studio check-studio-quick check-scale check-sanitizers check-arm check-arm-syntax wasm check-wasm python check-python site check-site lint package check-package bench bench-threads bench-place bench-scale bench-studio bench-python fuzz search install uninstall clean
 
 help:
 	@echo 'make demo        build tartan, count a plan library, draw a sheet of it (into demo/)'
@@ -34,6 +34,7 @@ help:
 	@echo 'make check-site  test that its links lead somewhere, and that the files to try pass, in the playground too, if that is made'
 	@echo 'make lint        look over the sources with clang-tidy'
 	@echo 'make bench       print how fast it is here'
+	@echo 'make bench-threads print how the time of works falls with threads here'
 	@echo 'make bench-place print how fast parts are placed, counted and drawn here'
 	@echo 'make bench-scale print how fast shard sets are here (an idle machine with two processors or more)'
 	@echo 'make bench-studio print how fast the studio answers here'
@@ -135,6 +136,9 @@ lint: build
 
 bench: build
 	@bench/run build
+
+bench-threads: build
+	@bench/threads build
 
 bench-place: build
 	@bench/place build

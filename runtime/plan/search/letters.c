@@ -33,18 +33,54 @@ static void make_place(const tn_letters *letters, uint32_t place)
         tn_circuit_assert(circuit, tn_signal_not(tn_letters_meet(letters, place, schema->record->forbid_first + i)));
 }
 
-tn_status tn_letters_make(tn_letters *letters, tn_circuit *circuit, const tn_schema *schema, uint32_t length,
-                          tn_error *error)
+static tn_status make_room(tn_letters *letters, tn_circuit *circuit, const tn_schema *schema, uint32_t length,
+                           tn_error *error)
 {
     size_t count = tn_size_of(length, schema->value_count);
     *letters = (tn_letters){.circuit = circuit, .schema = schema, .length = length};
     letters->up_to = tn_array_new((uint64_t)count + 1, sizeof *letters->up_to);
     letters->is = tn_array_new((uint64_t)count + 1, sizeof *letters->is);
-    if (!letters->up_to || !letters->is)
-        return tn_fail_memory(error);
-    for (uint32_t place = 0; place < length; place++)
+    return letters->up_to && letters->is ? TN_OK : tn_fail_memory(error);
+}
+
+tn_status tn_letters_make(tn_letters *letters, tn_circuit *circuit, const tn_schema *schema, uint32_t length,
+                          tn_error *error)
+{
+    tn_status status = make_room(letters, circuit, schema, length, error);
+    for (uint32_t place = 0; status == TN_OK && place < length; place++)
         make_place(letters, place);
-    return tn_circuit_status(circuit, error);
+    return status == TN_OK ? tn_circuit_status(circuit, error) : status;
+}
+
+/* Values in the same order are the same gates, and so clauses of the same meaning are, too. */
+static void map_field(const tn_letters *letters, const tn_letters *of, uint32_t place, uint32_t field, uint32_t other,
+                      const uint8_t *values)
+{
+    const tn_schema *schema = letters->schema;
+    tn_signal some[TN_FIELD_VALUES_MAX];
+    tn_signal *up_to = letters->up_to + (size_t)place * schema->value_count + schema->value_start[other];
+    tn_signal *is = letters->is + (size_t)place * schema->value_count + schema->value_start[other];
+    uint32_t count = values_of(schema, other);
+    bool in_order = true;
+    for (uint32_t v = 0; v < count; v++) {
+        is[values[v]] = tn_letters_is(of, place, field, v);
+        in_order = in_order && values[v] == v;
+    }
+    for (uint32_t v = 0; v < count; v++) {
+        for (uint32_t i = 0; i <= v; i++)
+            some[i] = is[i];
+        up_to[v] = in_order ? tn_letters_up_to(of, place, field, v) : tn_circuit_any(letters->circuit, some, v + 1);
+    }
+}
+
+tn_status tn_letters_map(tn_letters *letters, const tn_letters *of, const tn_schema *schema, const uint32_t *fields,
+                         const uint8_t *values, tn_error *error)
+{
+    tn_status status = make_room(letters, of->circuit, schema, of->length, error);
+    for (uint32_t place = 0; status == TN_OK && place < of->length; place++)
+        for (uint32_t f = 0; f < of->schema->field_count; f++)
+            map_field(letters, of, place, f, fields[f], values + of->schema->value_start[f]);
+    return status == TN_OK ? tn_circuit_status(of->circuit, error) : status;
 }
 
 void tn_letters_clear(tn_letters *letters)

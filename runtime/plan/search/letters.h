@@ -21,6 +21,10 @@ typedef struct tn_letters {
 /* Plans of so many trays; only legal ones, from now on. Clear it in any case. */
 tn_status tn_letters_make(tn_letters *letters, tn_circuit *circuit, const tn_schema *schema, uint32_t length,
                           tn_error *error);
+/* The same trays in another schema, on the same circuit: field f of the first is fields[f] of this one, and its value
+ * v, in its schema's order, is that field's values[v]. Clear it in any case. */
+tn_status tn_letters_map(tn_letters *letters, const tn_letters *of, const tn_schema *schema, const uint32_t *fields,
+                         const uint8_t *values, tn_error *error);
 void tn_letters_clear(tn_letters *letters);
 
 /* The gate of a field's value, by its place among the field's. */

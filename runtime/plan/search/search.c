@@ -83,8 +83,8 @@ static tn_status assert_narrow(tn_plan_search *search, tn_error *error)
     return status;
 }
 
-/* On a circuit of its own, or (`circuit` given) another's. */
-static tn_status open_on(tn_plan_search *search, tn_circuit *circuit, uint32_t trays, tn_error *error)
+/* Room for plans of so many trays. */
+static tn_status begin_length(tn_plan_search *search, uint32_t trays, tn_error *error)
 {
     tn_search_length *at = &search->at;
     uint32_t clauses = search->record->clause_count;
@@ -92,25 +92,30 @@ static tn_status open_on(tn_plan_search *search, tn_circuit *circuit, uint32_t t
     tn_search_close(search);
     at->trays = trays;
     at->open = true;
-    at->circuit = circuit;
-    at->borrowed = circuit != NULL;
     at->keeps = calloc((size_t)clauses + 1, sizeof *at->keeps);
     at->judged = calloc((size_t)clauses + 1, sizeof *at->judged);
     at->assumed = tn_array_new(digits + clauses + TN_SEARCH_FIXED_MAX + 2, sizeof *at->assumed);
     at->differs = tn_array_new(digits + 1, sizeof *at->differs);
-    tn_status status = at->keeps && at->judged && at->assumed && at->differs ? TN_OK : tn_fail_memory(error);
-    if (status == TN_OK && !circuit)
-        status = tn_circuit_new(search->options.max_gates, &at->circuit, error);
-    if (status == TN_OK)
-        status = tn_letters_make(&at->letters, at->circuit, search->schema, trays, error);
-    if (status == TN_OK)
-        status = tn_unrolled_new(&at->letters, &at->unrolled, error);
+    return at->keeps && at->judged && at->assumed && at->differs ? TN_OK : tn_fail_memory(error);
+}
+
+static tn_status unroll(tn_plan_search *search, tn_error *error)
+{
+    tn_status status = tn_unrolled_new(&search->at.letters, &search->at.unrolled, error);
     return status == TN_OK ? unroll_clauses(search, error) : status;
 }
 
-tn_status tn_search_open_on(tn_plan_search *search, tn_circuit *circuit, uint32_t trays, tn_error *error)
+tn_status tn_search_open_on(tn_plan_search *search, const tn_letters *letters, const tn_search_other *map,
+                            tn_error *error)
 {
-    tn_status status = open_on(search, circuit, trays, error);
+    tn_search_length *at = &search->at;
+    tn_status status = begin_length(search, letters->length, error);
+    at->circuit = letters->circuit;
+    at->borrowed = true;
+    if (status == TN_OK)
+        status = tn_letters_map(&at->letters, letters, search->schema, map->fields, map->values, error);
+    if (status == TN_OK)
+        status = unroll(search, error);
     if (status != TN_OK)
         tn_search_close(search);
     return status;
@@ -118,8 +123,14 @@ tn_status tn_search_open_on(tn_plan_search *search, tn_circuit *circuit, uint32_
 
 tn_status tn_search_open(tn_plan_search *search, uint32_t trays, bool keep, tn_error *error)
 {
-    const tn_search_length *at = &search->at;
-    tn_status status = open_on(search, NULL, trays, error);
+    tn_search_length *at = &search->at;
+    tn_status status = begin_length(search, trays, error);
+    if (status == TN_OK)
+        status = tn_circuit_new(search->options.max_gates, &at->circuit, error);
+    if (status == TN_OK)
+        status = tn_letters_make(&at->letters, at->circuit, search->schema, trays, error);
+    if (status == TN_OK)
+        status = unroll(search, error);
     for (uint32_t i = 0; status == TN_OK && keep && i < search->record->clause_count; i++)
         tn_circuit_assert(at->circuit, at->keeps[i]);
     if (status == TN_OK && keep)

@@ -96,8 +96,9 @@ tn_status tn_search_without(tn_plan_search *search, const tn_search_other *other
 /* Does the other library keep the search's plan? By the interpreter. */
 tn_status tn_search_other_keeps(tn_plan_search *search, const tn_search_other *other, bool *keeps, tn_error *error);
 
-/* The gates of another search's plans of so many trays, on a circuit that is not its own. */
-tn_status tn_search_open_on(tn_plan_search *search, tn_circuit *circuit, uint32_t trays, tn_error *error);
+/* The gates of the search's plans, whose trays are another's letters, on the circuit of these. */
+tn_status tn_search_open_on(tn_plan_search *search, const tn_letters *letters, const tn_search_other *map,
+                            tn_error *error);
 
 /* ---- values of a measure on the plans of the length that is open */
 

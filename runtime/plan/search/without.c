@@ -5,22 +5,6 @@
 #include "runtime/base/array.h"
 #include "runtime/plan/search/search_data.h"
 
-/* Each value of a tray is that of the other's tray. */
-static void tie(tn_plan_search *search, const tn_search_other *other)
-{
-    const tn_schema *schema = search->schema;
-    tn_circuit *circuit = search->at.circuit;
-    for (uint32_t k = 0; k < search->at.trays; k++)
-        for (uint32_t f = 0; f < schema->field_count; f++)
-            for (uint32_t v = 0; v < schema->value_start[f + 1] - schema->value_start[f]; v++) {
-                tn_signal here = tn_letters_is(&search->at.letters, k, f, v);
-                tn_signal there = tn_letters_is(&other->search->at.letters, k, other->fields[f],
-                                                other->values[schema->value_start[f] + v]);
-                tn_circuit_assert_any(circuit, (tn_signal[]){tn_signal_not(here), there}, 2);
-                tn_circuit_assert_any(circuit, (tn_signal[]){here, tn_signal_not(there)}, 2);
-            }
-}
-
 tn_status tn_search_without(tn_plan_search *search, const tn_search_other *other, tn_signal *gate, tn_error *error)
 {
     tn_plan_search *from = other->search;
@@ -29,10 +13,9 @@ tn_status tn_search_without(tn_plan_search *search, const tn_search_other *other
     if (trays < from->options.trays_min || trays > from->options.trays_max)
         return TN_OK;
     tn_circuit_go_on(search->at.circuit);
-    tn_status status = tn_search_open_on(from, search->at.circuit, trays, error);
+    tn_status status = tn_search_open_on(from, &search->at.letters, other, error);
     if (status != TN_OK)
         return status;
-    tie(search, other);
     bool judged = false;
     for (uint32_t i = 0; i < clauses; i++)
         judged |= from->at.judged[i];
