@@ -181,15 +181,31 @@ static tn_status compare(tn_arena *arena, tn_sources *sources, const tn_notation
     return status == TN_INVALID ? TN_OK : status;
 }
 
+/* Reads the text with the newer words for older ones instead, if it has some; *said: what there is to say of that, or
+ * NULL. */
+static tn_status renew(tn_arena *arena, tn_diagnostics *diagnostics, const tn_notation *notation, const char *path,
+                       tn_reading *read, const char **said, tn_error *error)
+{
+    const tn_source *source = &diagnostics->sources->files[read->file];
+    *said = NULL;
+    const char *text = notation->front->renew ? notation->front->renew(arena, source, &read->tokens, said) : NULL;
+    if (tn_arena_failed(arena))
+        return tn_fail_memory(error);
+    return text ? read_text(arena, diagnostics, notation, path, text, strlen(text), read, error) : TN_OK;
+}
+
 static tn_status format_in(tn_arena *arena, tn_diagnostics *diagnostics, const tn_notation *notation, const char *path,
                            const char *text, size_t size, char **formatted, size_t *formatted_size, tn_error *error)
 {
     tn_reading before;
+    const char *renewed = NULL;
     char *laid_out;
     bool same;
     tn_status status = read_text(arena, diagnostics, notation, path, text, size, &before, error);
     if (status == TN_OK && !is_whole(&diagnostics->sources->files[before.file], &before.tokens))
         return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "laid out, %s would lose something: it stays as it is", path);
+    if (status == TN_OK)
+        status = renew(arena, diagnostics, notation, path, &before, &renewed, error);
     if (status == TN_OK)
         status = lay_out(arena, diagnostics, notation, &before, &laid_out, formatted_size, error);
     if (status == TN_OK)
@@ -203,6 +219,9 @@ static tn_status format_in(tn_arena *arena, tn_diagnostics *diagnostics, const t
     if (!*formatted)
         return tn_fail_memory(error);
     memcpy(*formatted, laid_out, *formatted_size + 1);
+    if (renewed)
+        tn_report_bare(diagnostics, TN_NOTE, TN_CODE_NONE, "%s: %s; the next release reads the newer words alone", path,
+                       renewed);
     return TN_OK;
 }
 

@@ -2,7 +2,8 @@
  *
  * The formatter works on the file's tokens, not on its syntax tree, so that parentheses, spellings of lengths and
  * everything else an author chose stays; it only chooses where lines end, how far they are indented and what is lined
- * up, and writes the language's words the usual way. What it made is read again and its tokens (of a grammar: its
+ * up, and writes the language's words the usual way, those that are called otherwise now by their newer names (a note
+ * in the diagnostics says so). What it made is read again and its tokens (of a grammar: its
  * rules) are compared with the original's: formatting cannot change what a file means. Lines are at most
  * TN_FORMAT_WIDTH characters wide, where a line can be broken.
  */

@@ -74,8 +74,8 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token ONE_EXPRESSION "an expression" ONE_PATTERN "an open plan" ONE_LITERAL "a plan" ONE_SETTING "the value of a param"
 %token PARAM "`param`" WITH "`with`" ONTO "`onto`" BY_MEASURE "`measure` of plans" BY_RULE "`rule` of plans"
 %token PLUS "`+`" STAR "`*`" SLASH "`/`" ELLIPSIS "`...`" QUESTION "`?`"
-%token FORM "`form`" STOREY "`storey`" SPINE "`spine`" WALL "`wall`" PARTITION "`partition`" DECK "`deck`" ROOF "`roof`"
-%token SECTION "`section`" VOID "`void`" NO "`no`" FUNCTION "`function`" OUTDOOR "`outdoor`" AT "`at`" CELL "`cell`"
+%token FORM "`form`" STOREY "`storey`" SPINE "`spine`" WALL "`wall`" PARTITION "`partition`" FLOOR "`floor`" ROOF "`roof`"
+%token OPTION "`option`" VOID "`void`" NO "`no`" FUNCTION "`function`" OUTDOOR "`outdoor`" AT "`at`" CELL "`cell`"
 %token OPENING "`opening`" WIDE "`wide`" HIGH "`high`" SILL "`sill`" CLEAR "`clear`" PASSAGE "`passage`"
 %token WAY "`way`" HEADROOM "`headroom`" GUARD "`guard`"
 %token BEAM "`beam`" SPAN "`span`"
@@ -109,11 +109,11 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <tile_part> stretch_word drawn
 %type <symbol_line> line_end
 %type <box_side> side_word
-%type <node> form_clause shape argument opening_part tile_part symbol_line reach layer section_alternative section_item
-%type <list> form_clauses layers shapes arguments opening_parts tile_parts symbol_lines kinds or_names reaches section_items section_alternatives
-%type <word> size outside_side side number going turn winders section
+%type <node> form_clause shape argument opening_part tile_part symbol_line reach layer option_alternative option_item
+%type <list> form_clauses layers shapes arguments opening_parts tile_parts symbol_lines kinds or_names reaches option_items option_alternatives
+%type <word> size outside_side side number going turn winders option
 %type <expr> material_where
-%type <expr> walk_end cells cell_ors cell_and cell_ands cell_not sections section_ors section_and section_ands section_not
+%type <expr> walk_end cells cell_ors cell_and cell_ands cell_not options option_ors option_and option_ands option_not
 %type <expr> expression implied qualified disjunction ors and ands not compared comparable nearness additive term signed primary pattern_tray head_number
 %type <expr> part call_arg tray_sum tray_term tray_signed tray_atom
 %type <list> params number_cases pattern call_args
@@ -488,7 +488,7 @@ primary
                                                 { $$ = tn_ast_sum(parse, @$, $3, $5, $6, $8); }
     | CELL OPEN specifier CLOSE                 { $$ = tn_ast_house_leaf(parse, TN_EXPR_CELL, @$, $3); }
     | ROOM OPEN specifier CLOSE                 { $$ = tn_ast_house_leaf(parse, TN_EXPR_ROOM, @$, $3); }
-    | SECTION OPEN section_items CLOSE          { $$ = tn_ast_house_leaf(parse, TN_EXPR_SECTION, @$, $3); }
+    | OPTION OPEN option_items CLOSE            { $$ = tn_ast_house_leaf(parse, TN_EXPR_SECTION, @$, $3); }
     | TOUCH OPEN cells COMMA cells by_kinds CLOSE
                                                 { $$ = tn_ast_meeting(parse, TN_EXPR_TOUCH, @$, tn_ast_append(tn_ast_one($3), $5), $6); }
     | APART OPEN cells COMMA FROM cells walk_by CLOSE
@@ -787,9 +787,9 @@ form_clause
                                                 { $1.length = $2; $1.layered = tn_span_join(@3, @5); $1.parts = $4; $$ = tn_ast_form_clause_new(parse, @$, $1); }
     | thickness size OPEN_BRACE error CLOSE_BRACE
                                                 { $1.length = $2; $$ = tn_ast_form_clause_new(parse, @$, $1); yyerrok; }
-    | section EQUAL shapes                      { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_SECTION, .name = $1, .list = $3}); }
-    | section NAME EQUAL shapes                 { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_SECTION, .name = $1, .detail = $2, .list = $4}); }
-    | forbid_word sections                      { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_FORBID, .first = $2}); }
+    | option EQUAL shapes                       { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_SECTION, .name = $1, .list = $3}); }
+    | option NAME EQUAL shapes                  { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_SECTION, .name = $1, .detail = $2, .list = $4}); }
+    | forbid_word options                       { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_FORBID, .first = $2}); }
     | void cells                                { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_VOID, .first = $2}); }
     | no cells                                  { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_NO, .first = $2}); }
     | function NAME doc AT cells                { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_FUNCTION, .name = $2, .doc = $3, .first = $5}); }
@@ -818,7 +818,7 @@ form_clause
 
 storey: STOREY                                  { yyerrok; };
 spine: SPINE                                    { yyerrok; };
-section: SECTION NAME                           { $$ = $2; yyerrok; }; /* not that of `where section(...)` */
+option: OPTION NAME                             { $$ = $2; yyerrok; }; /* not that of `where option(...)` */
 void: VOID                                      { yyerrok; };
 no: NO                                          { yyerrok; };
 function: FUNCTION                              { yyerrok; };
@@ -859,7 +859,7 @@ number
 
 material_where
     : %empty                                    { $$ = NULL; }
-    | WHERE sections                            { $$ = $2; }
+    | WHERE options                             { $$ = $2; }
     ;
 
 thickness
@@ -867,7 +867,7 @@ thickness
     | WALL OUTSIDE                              { $$ = (tn_ast_form_clause){.part = TN_PART_WALL, .detail = tn_ast_word_new(parse, TN_WORD_NAME, @2, "outside", TN_LAYERED_OUTSIDE)}; yyerrok; }
     | WALL NAME                                 { $$ = (tn_ast_form_clause){.part = TN_PART_WALL, .detail = $2}; yyerrok; }
     | PARTITION                                 { $$ = (tn_ast_form_clause){.part = TN_PART_PARTITION}; yyerrok; }
-    | DECK                                      { $$ = (tn_ast_form_clause){.part = TN_PART_DECK}; yyerrok; }
+    | FLOOR                                     { $$ = (tn_ast_form_clause){.part = TN_PART_DECK}; yyerrok; }
     | ROOF                                      { $$ = (tn_ast_form_clause){.part = TN_PART_ROOF}; yyerrok; }
     ;
 
@@ -1037,54 +1037,54 @@ cell_not
     | CELL OPEN specifier CLOSE                 { $$ = tn_ast_house_leaf(parse, TN_EXPR_CELL, @$, $3); }
     ;
 
-/* what sections are */
+/* what options are */
 
-sections
-    : section_and
-    | section_ors
+options
+    : option_and
+    | option_ors
     ;
 
-section_ors
-    : section_and OR section_and                { $$ = tn_ast_expr_join(parse, TN_EXPR_OR, $1, $3); }
-    | section_ors OR section_and                { $$ = tn_ast_expr_add(parse, $1, $3); }
+option_ors
+    : option_and OR option_and                  { $$ = tn_ast_expr_join(parse, TN_EXPR_OR, $1, $3); }
+    | option_ors OR option_and                  { $$ = tn_ast_expr_add(parse, $1, $3); }
     ;
 
-section_and
-    : section_not
-    | section_ands
+option_and
+    : option_not
+    | option_ands
     ;
 
-section_ands
-    : section_not AND section_not               { $$ = tn_ast_expr_join(parse, TN_EXPR_AND, $1, $3); }
-    | section_ands AND section_not              { $$ = tn_ast_expr_add(parse, $1, $3); }
+option_ands
+    : option_not AND option_not                 { $$ = tn_ast_expr_join(parse, TN_EXPR_AND, $1, $3); }
+    | option_ands AND option_not                { $$ = tn_ast_expr_add(parse, $1, $3); }
     ;
 
-section_not
-    : NOT section_not                           { $$ = tn_ast_of(parse, TN_EXPR_NOT, @$, tn_ast_one($2)); }
-    | OPEN sections CLOSE                       { $$ = $2; }
-    | SECTION OPEN section_items CLOSE          { $$ = tn_ast_house_leaf(parse, TN_EXPR_SECTION, @$, $3); }
+option_not
+    : NOT option_not                            { $$ = tn_ast_of(parse, TN_EXPR_NOT, @$, tn_ast_one($2)); }
+    | OPEN options CLOSE                        { $$ = $2; }
+    | OPTION OPEN option_items CLOSE            { $$ = tn_ast_house_leaf(parse, TN_EXPR_SECTION, @$, $3); }
     ;
 
-section_items
-    : section_item                              { $$ = tn_ast_one($1); }
-    | section_items COMMA section_item          { $$ = tn_ast_append($1, $3); }
+option_items
+    : option_item                               { $$ = tn_ast_one($1); }
+    | option_items COMMA option_item            { $$ = tn_ast_append($1, $3); }
     ;
 
-section_item
-    : section_alternatives                      { $$ = tn_ast_item_new(parse, @$, $1); }
+option_item
+    : option_alternatives                       { $$ = tn_ast_item_new(parse, @$, $1); }
     ;
 
-section_alternatives
-    : section_alternative                       { $$ = tn_ast_one($1); }
-    | section_alternatives OR section_alternative
+option_alternatives
+    : option_alternative                        { $$ = tn_ast_one($1); }
+    | option_alternatives OR option_alternative
                                                 { $$ = tn_ast_append($1, $3); }
     ;
 
 /* [not] [choice] value */
-section_alternative
+option_alternative
     : shape                                     { $$ = tn_ast_alternative_new(parse, @$, tn_ast_one($1)); }
-    | NAME section_alternative                  { $$ = tn_ast_alternative_word(parse, @$, $1, $2); }
-    | NOT section_alternative                   { $$ = tn_ast_alternative_word(parse, @$, tn_ast_not_word(parse, @1), $2); }
+    | NAME option_alternative                   { $$ = tn_ast_alternative_word(parse, @$, $1, $2); }
+    | NOT option_alternative                    { $$ = tn_ast_alternative_word(parse, @$, tn_ast_not_word(parse, @1), $2); }
     ;
 
 /* ---- tests */

@@ -41,7 +41,7 @@ typedef struct lsp_cursor {
 } lsp_cursor;
 
 static void complete_cell(lsp_cursor *c, size_t bracket, bool room);
-static void complete_section(lsp_cursor *c, size_t bracket);
+static void complete_option(lsp_cursor *c, size_t bracket);
 static void complete_form(lsp_cursor *c);
 
 /* Is token i this word? */
@@ -60,6 +60,12 @@ static bool cursor_is_word(const lsp_cursor *c, size_t i, uint64_t places, uint3
         return false;
     tn_span span = c->tokens[i].span;
     return tn_vocabulary_find(&tn_plan_words, c->text + span.begin, span.end - span.begin, places, uses) != NULL;
+}
+
+/* Is it `option`, which was `section`? */
+static bool says_option(const lsp_cursor *c, size_t i)
+{
+    return cursor_is(c, i, "option") || cursor_is(c, i, "section");
 }
 
 static char *cursor_word(const lsp_cursor *c, size_t i)
@@ -482,12 +488,12 @@ static bool find_tokens(lsp_cursor *c, size_t offset, bool *quoted)
     return true;
 }
 
-/* Does the token start a line of what the braces hold? `section(` is a part of one. */
+/* Does the token start a line of what the braces hold? `option(` is a part of one. */
 static bool starts_line(const lsp_cursor *c, size_t i)
 {
     if (cursor_is(c, c->item, "form"))
         return cursor_is_word(c, i, TN_AT(FORM), TN_AS_KEYWORDS) &&
-               !(cursor_is_word(c, i, TN_AT(SECTIONS), TN_AS_CALL) && cursor_is(c, i + 1, "("));
+               !(cursor_is_word(c, i, TN_AT(OPTIONS), TN_AS_CALL | TN_AS_SPELLING) && cursor_is(c, i + 1, "("));
     return cursor_is_word(c, i,
                           cursor_is(c, c->item, "test")     ? TN_AT_CASES
                           : cursor_is(c, c->item, "schema") ? TN_AT(SCHEMA)
@@ -539,8 +545,8 @@ static void complete_plan(lsp_cursor *c)
         complete_tray(c, true);
     else if (of_room || (c->depth && bracket > 0 && cursor_is(c, bracket - 1, "cell")))
         complete_cell(c, bracket, of_room);
-    else if (c->depth && bracket > 0 && cursor_is(c, bracket - 1, "section"))
-        complete_section(c, bracket);
+    else if (c->depth && bracket > 0 && says_option(c, bracket - 1))
+        complete_option(c, bracket);
     else if (outer > 0)
         complete_tray(c, false);
     else if (c->depth && c->in_braces && cursor_is(c, c->item, "form"))
@@ -727,7 +733,7 @@ static void offer_choices(lsp_cursor *c, const tn_ast_form_clause *choice)
             offer(c, shape->word->text, KIND_VALUE, NULL, "1");
 }
 
-/* `section(body roof gable)`, or `section(cladding board)`: a choice is one word or two. */
+/* `option(body roof gable)`, or `option(cladding board)`: a choice is one word or two. */
 static void complete_choice(lsp_cursor *c, const tn_ast_form_clause *choice, size_t first)
 {
     size_t detail = choice->detail != NULL;
@@ -743,8 +749,8 @@ static void complete_choice(lsp_cursor *c, const tn_ast_form_clause *choice, siz
         offer_choices(c, choice);
 }
 
-/* In `section(`, whose bracket is that token: the choices of the form, then their values. */
-static void complete_section(lsp_cursor *c, size_t bracket)
+/* In `option(`, whose bracket is that token: the choices of the form, then their values. */
+static void complete_option(lsp_cursor *c, size_t bracket)
 {
     const tn_symbol *form = form_here(c);
     if (!form)
@@ -753,7 +759,7 @@ static void complete_section(lsp_cursor *c, size_t bracket)
         if (clause->part == TN_PART_SECTION)
             complete_choice(c, clause, bracket + 1);
     if (c->count > bracket + 2)
-        offer_words(c, TN_AT(SECTION));
+        offer_words(c, TN_AT(OPTION));
 }
 
 static void complete_kinds(lsp_cursor *c)
@@ -765,8 +771,8 @@ static void complete_kinds(lsp_cursor *c)
 /* In a line that says how thick something is, which may have layers in braces. */
 static bool starts_thickness(const lsp_cursor *c)
 {
-    return cursor_is(c, c->clause, "wall") || cursor_is(c, c->clause, "partition") || cursor_is(c, c->clause, "deck") ||
-           cursor_is(c, c->clause, "roof");
+    return cursor_is(c, c->clause, "wall") || cursor_is(c, c->clause, "partition") || cursor_is(c, c->clause, "floor") ||
+           cursor_is(c, c->clause, "deck") || cursor_is(c, c->clause, "roof");
 }
 
 /* In the braces of a form, outside of parentheses. */
@@ -786,7 +792,7 @@ static void complete_form(lsp_cursor *c)
     } else if (cursor_is(c, c->clause, "material")) {
         offer_parts(c, TN_SYMBOL_OPENING, KIND_VALUE);
         offer_parts(c, TN_SYMBOL_LAYER, KIND_VALUE);
-        offer_words(c, TN_AT(MATERIAL) | TN_AT(SECTIONS));
+        offer_words(c, TN_AT(MATERIAL) | TN_AT(OPTIONS));
     } else if (cursor_is(c, c->clause, "allow")) {
         complete_codes(c);
     } else if (cursor_is(c, c->clause, "opening")) {
@@ -798,10 +804,10 @@ static void complete_form(lsp_cursor *c)
         offer_words(c, TN_AT(FLIGHT));
     } else if (cursor_is(c, c->clause, "beam")) {
         offer_words(c, TN_AT(BEAM));
-    } else if (cursor_is(c, c->clause, "section")) {
+    } else if (says_option(c, c->clause)) {
         offer_words(c, TN_AT(CHOICE));
     } else if (cursor_is(c, c->clause, "forbid")) {
-        offer_words(c, TN_AT(SECTIONS));
+        offer_words(c, TN_AT(OPTIONS));
     } else if (cursor_is(c, c->clause, "function")) {
         offer_words(c, TN_AT(FUNCTION) | TN_AT(CELLS));
     } else if (cursor_is(c, c->clause, "void") || cursor_is(c, c->clause, "no")) {

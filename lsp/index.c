@@ -52,7 +52,7 @@ static bool is_defined(tn_form_part part, tn_symbol_kind *kind)
     }
 }
 
-/* `section NAME = ...`, or `section ZONE NAME = ...`. */
+/* `option NAME = ...`, or `option ZONE NAME = ...`. */
 static void define_choice(tn_index *index, const tn_ast_form_clause *clause, const tn_symbol *form)
 {
     const tn_ast_word *zone = clause->name, *own = clause->detail ? clause->detail : zone;
@@ -139,7 +139,7 @@ static void use_choice(tn_index *index, const tn_symbol *form, const tn_ast_list
         use_zone(index, form, named[0]);
 }
 
-/* `section(...)`, of a form or NULL. */
+/* `option(...)`, of a form or NULL. */
 static void index_section(tn_index *index, const tn_symbol *form, const tn_ast_expr *section)
 {
     for (TN_EACH(const tn_ast_item, item, section->items))

@@ -221,7 +221,7 @@ static void write_sum(const place_words *w, uint64_t cells, const char *what)
     const tn_survey *s = w->survey;
     fputs("\nOver all ", w->out);
     words_count(w, s->schema->tray_count);
-    fprintf(w->out, " trays of `%s` and all sections, %s", tn_text(w->module, s->schema->record->name), what);
+    fprintf(w->out, " trays of `%s` and all options, %s", tn_text(w->module, s->schema->record->name), what);
     words_count(w, cells);
     fputs(" of ", w->out);
     words_count(w, s->cells);
@@ -320,7 +320,7 @@ static void write_storey_zone(const place_words *w, uint32_t zone, uint32_t stor
     words_count(w, sections);
     fputs(" of ", w->out);
     words_count(w, s->stands);
-    fputs(" sections", w->out);
+    fputs(" combinations of options", w->out);
 }
 
 static void write_storey(const place_words *w, uint32_t storey)
@@ -332,7 +332,7 @@ static void write_storey(const place_words *w, uint32_t storey)
     write_sum(w, cells, "it has ");
     for (uint32_t z = 0; z < s->form.zone_count; z++)
         write_storey_zone(w, z, storey);
-    fputs("\n- from the floor to the deck above: ", w->out);
+    fputs("\n- from the floor to the ceiling: ", w->out);
     words_length(w, tn_form_clear(&s->form, storey));
 }
 
@@ -345,7 +345,7 @@ static void write_choice(const place_words *w, const tn_choice_record *choice)
         words_count(w, s->with[shape]);
         fputs(" of ", w->out);
         words_count(w, s->stands);
-        fputs(" sections", w->out);
+        fputs(" combinations of options", w->out);
     }
     if (choice->shape_count > VALUES_SHOWN)
         fprintf(w->out, "\n- and %u more", choice->shape_count - VALUES_SHOWN);
@@ -363,7 +363,7 @@ static void write_form(const place_words *w)
         return;
     fputs("\n- ", w->out);
     words_count(w, s->stands);
-    fputs(" sections", w->out);
+    fputs(" combinations of options", w->out);
     if (s->stands == s->sections)
         return;
     fputs("; ", w->out);

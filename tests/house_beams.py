@@ -30,9 +30,9 @@ class Form:
         lines = [f"schema hut {{ width role length = {r.randint(6, 8)}' | {r.randint(9, 13)}'",
                  f"  zone shed role band = none role absent | space({r.randint(5, 7)}')", f"  zone body role band = space({r.randint(8, 12)}', {r.randint(14, 16)}')",
                  "  zone bay role band = none role absent | space(5') }", "form huts of hut {", f'  storey low {self.storey}"', "  storey high 8'", "  spine body",
-                 f'  wall {self.wall}"', f'  partition {self.partition}"', f'  deck {self.deck}"', '  roof 6"']
+                 f'  wall {self.wall}"', f'  partition {self.partition}"', f'  floor {self.deck}"', '  roof 6"']
         lines += [f'  beam {name} wide {wide}" high {high}" span {span}"' for name, wide, high, span in self.beams] if beams else []
-        lines += ["  section body storeys = 2", "  section shed storeys = 1 | 2", "  section bay storeys = 1", "  allow W220",
+        lines += ["  option body storeys = 2", "  option shed storeys = 1 | 2", "  option bay storeys = 1", "  allow W220",
                   "  function hall at cell(any)", f'  opening door wide 3\' high {self.openings["door"][1]}" passage', "  opening sash wide 2' high 3' sill 2'",
                   f"  face cell(hall) along cell(hall) = {kinds[0]}", f"  face cell(hall) across cell(hall) = {kinds[1]}",
                   f"  face cell(bay) outside = {r.choice(('open', 'sash'))}", "  face cell(any) outside back = sash | wall", "  face cell(any) outside = wall",

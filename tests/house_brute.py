@@ -59,9 +59,9 @@ form huts of hut {{
   storey ground {self.high[0]}"
   storey loft {self.high[1]}"
   spine body
-  wall {self.wall}" partition {self.partition}" deck {self.deck}" roof 6"
-  section body storeys = 1 | 2
-  section wing storeys = 1
+  wall {self.wall}" partition {self.partition}" floor {self.deck}" roof 6"
+  option body storeys = 1 | 2
+  option wing storeys = 1
   function living at cell(body, ground)
   function bed at cell(body)
   function well at cell(body, {self.widths[0]}")

@@ -22,10 +22,10 @@ FORM = """schema row {
 }
 form two of row {
   storey floor 3m
-  wall 300mm partition 100mm deck 300mm roof 200mm
-  section house roof = flat | shed(back, 1:4) | gable(1:1)
-  section cladding = brick | render
-  forbid section(cladding brick) and section(house roof shed)
+  wall 300mm partition 100mm floor 300mm roof 200mm
+  option house roof = flat | shed(back, 1:4) | gable(1:1)
+  option cladding = brick | render
+  forbid option(cladding brick) and option(house roof shed)
   function living at cell(house)
   function store at cell(house)
   function bath at cell(width 3m)
@@ -39,7 +39,7 @@ library rows using row { trays 1..3 }
 """
 RULES = {
     "baths": "quantity(cell(bath), n >= 2)", "bath": "cell(bath)", "store": "cell(store)", "no-living": "not cell(living)", "one-store": "quantity(cell(store), n = 1)",
-    "lone-store": "cell(store) and not quantity(cell(store), n > 1)", "brick": "section(cladding brick)", "flat": "section(house roof flat)", "shed": "section(house roof shed)",
+    "lone-store": "cell(store) and not quantity(cell(store), n > 1)", "brick": "option(cladding brick)", "flat": "option(house roof flat)", "shed": "option(house roof shed)",
     "cut-off": "apart(cell(store), from cell(living), through cell(any), by door)", "baths-side": "touch(cell(bath), cell(bath))",
     "bath-pair": "touch(cell(bath), cell(bath) by wall)", "dark": "room(living, not by pane)", "wide": "tray(width 4m)", "three": "quantity(any, n = 3)", "four": "quantity(cell(any), n > 3)", "homeless": "quantity(cell(living), n = 0)",
     "any-room": "cell(bath or store or living)", "far": "apart(cell(bath), from cell(living), by door)", "big": "sum(area of cell(any), a > 30m2)",
@@ -135,7 +135,7 @@ def check_idle(library, every, matched, findings):
 
 
 def check_values(kept, every, findings):
-    told = {re.search(r"section\((.*)\)`", finding["message"])[1] for finding in findings.get("W213", [])}
+    told = {re.search(r"option\((.*)\)`", finding["message"])[1] for finding in findings.get("W213", [])}
     has = set().union(*(values(line) for line in kept))
     seen["values"] += len(told)
     return None if told == set().union(*(values(line) for line in every)) - has else f"values {sorted(told)}"

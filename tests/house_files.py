@@ -508,7 +508,7 @@ def below_roofs(house):
 
 def check_parts(path, house):
     """The table of parts, worked out again from the boxes and the lines of the roofs; money to the cent."""
-    kind_of = {"outside": "wall", "party": "party", "partition": "partition", "post": "post", "deck": "deck", "roofdeck": "deck", "guard": "guard"}
+    kind_of = {"outside": "wall", "party": "party", "partition": "partition", "post": "post", "deck": "floor", "roofdeck": "floor", "guard": "guard"}
     area, volume, number = Counter(), Counter(), Counter()
     walls, guards = set(), set()
     for s in house["solids"]:

@@ -35,7 +35,7 @@ class Form:
                  f"  zone body role band = space({deep}mm) | deep({deep + 600}mm)",
                  f"  zone wing role band = none role absent | porch({wing}mm)" + (f" | bay({more}mm)" if more else "") + " }",
                  "form huts of hut {", *(f"  storey s{k} {self.high}mm" for k in range(self.storeys)), "  spine body", f"  wall {wall}mm",
-                 f"  partition {partition}mm", f"  deck {self.deck}mm", "  roof 150mm", f"  way {r.choice((500, 600, 700))}mm", f"  guard {self.guard}mm",
+                 f"  partition {partition}mm", f"  floor {self.deck}mm", "  roof 150mm", f"  way {r.choice((500, 600, 700))}mm", f"  guard {self.guard}mm",
                  f"  headroom {r.choice((1900, 2000, 2100))}mm"]
         top = f"s{self.storeys - 1}"
         if r.random() < .7:

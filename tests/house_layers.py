@@ -41,16 +41,16 @@ class Roof:
 class Form:
     def __init__(self, seed):
         r = self.chance = random.Random(seed)
-        self.thick = {"outside": 8 * r.randint(2, 4), "partition": 8 * r.randint(1, 2), "deck": r.randint(24, 48), "roof": r.randint(16, 40)}
+        self.thick = {"outside": 8 * r.randint(2, 4), "partition": 8 * r.randint(1, 2), "floor": r.randint(24, 48), "roof": r.randint(16, 40)}
         self.thick["party"] = self.thick["outside"]
-        self.layers = {of: self.cut(self.thick[of]) for of in ("outside", "party", "partition", "deck", "roof") if r.random() < 0.8}
+        self.layers = {of: self.cut(self.thick[of]) for of in ("outside", "party", "partition", "floor", "roof") if r.random() < 0.8}
         self.together = "outside" in self.layers and r.random() < 0.3  # of all walls in one line
         if self.together:
             self.layers["party"] = self.layers["outside"]
         names = sorted({name for layers in self.layers.values() for name, _ in layers})
         self.prices = {name: (r.randint(1, 900), r.choice(("sf", "cf", "m2", "m3", "each"))) for name in names if r.random() < 0.8}
         self.roofs = {"body": Roof(r.choice(Roof.SHAPES)), "shed": Roof(r.choice(("flat", "shed(back, 4:12)", "shed(front, 2:12, open)"))), "bay": Roof("flat")}
-        for part in ("wall", "party", "partition", "post", "deck", "roof"):
+        for part in ("wall", "party", "partition", "post", "floor", "roof"):
             if r.random() < 0.6:
                 self.prices[part] = (r.randint(1, 900), r.choice(("sf", "cf")))
 
@@ -82,9 +82,9 @@ class Form:
         lines = [f"schema hut {{ width role length = {r.randint(6, 8)}' | {r.randint(9, 12)}'",
                  f"  zone shed role band = none role absent | space({r.randint(5, 7)}')", f"  zone body role band = space({r.randint(8, 12)}', {r.randint(13, 15)}')",
                  "  zone bay role band = none role absent | space(5') }", "form huts of hut {", "  storey low 8'", "  storey high 8'", "  spine body",
-                 *walls, self.line("partition", "partition", layered), self.line("deck", "deck", layered), self.line("roof", "roof", layered),
-                 *(f"  section {zone} roof = {roof.text}" for zone, roof in self.roofs.items()),
-                 "  section body storeys = 1 | 2", "  section shed storeys = 1 | 2", "  section bay storeys = 1",
+                 *walls, self.line("partition", "partition", layered), self.line("floor", "floor", layered), self.line("roof", "roof", layered),
+                 *(f"  option {zone} roof = {roof.text}" for zone, roof in self.roofs.items()),
+                 "  option body storeys = 1 | 2", "  option shed storeys = 1 | 2", "  option bay storeys = 1",
                  "  function hall at cell(any)", "  opening door wide 3' high 6'8\" passage", "  opening sash wide 2' high 3' sill 2'",
                  f"  face cell(hall) along cell(hall) = {kinds[0]}", f"  face cell(hall) across cell(hall) = {kinds[1]}",
                  f"  face cell(bay) outside = {r.choice(('open', 'sash'))}", "  face cell(any) outside back = sash | wall", "  face cell(any) outside = wall",
@@ -94,7 +94,7 @@ class Form:
                 lines.append(f'  material of-{name} "#a0b0c0" price {price / 100} per {per} for {name}')
         ends = "tray(width > 8.5', shed none, bay none, body depth > 12.5')", f"tray(width < 8.5', {r.choice(('shed none, bay none', 'bay none'))}, body depth < 12.5')"
         few = f"library few-rows using hut {{ trays 2  require neighbour({', '.join(r.sample(ends, 2))}) }}"
-        return "\n".join(lines + ["}", "library rows using hut { trays 1..3 }", "library all from rows in huts { }", few, "library few from few-rows in huts { require section(body storeys 1), section(shed storeys 1) }", ""])
+        return "\n".join(lines + ["}", "library rows using hut { trays 1..3 }", "library all from rows in huts { }", few, "library few from few-rows in huts { require option(body storeys 1), option(shed storeys 1) }", ""])
 
 
 # ---- what a solid is cut into
@@ -154,7 +154,7 @@ def layers_of(form, house, solid):
     if solid["kind"] in WALLS:
         return cut_wall(form, house["faces"][solid["of"]], solid["box"])
     if solid["kind"] in ("deck", "roofdeck"):
-        return cut(form.layers["deck"], solid["box"], 4, False) if "deck" in form.layers else None
+        return cut(form.layers["floor"], solid["box"], 4, False) if "floor" in form.layers else None
     wall = wall_at_post(form, house, solid) if solid["kind"] == "post" else None
     return cut_wall(form, wall, solid["box"]) if wall else None
 
@@ -177,7 +177,7 @@ def area_of(house, form, solid, box):
     return (deep if is_along_y(face) else wide) * high
 
 
-PARTS = {"outside": "wall", "party": "party", "partition": "partition", "post": "post", "deck": "deck", "roofdeck": "deck"}
+PARTS = {"outside": "wall", "party": "party", "partition": "partition", "post": "post", "deck": "floor", "roofdeck": "floor"}
 
 
 def bill_of(form, house):

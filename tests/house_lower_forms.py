@@ -2,7 +2,8 @@
 """Openings behind lower roofs, in small forms drawn at random: house_lower_forms.py TARTAN ORACLES FORMS
 
 Lists all houses, in order, with the slow reference and its rule about lower roofs, and holds them against tartan: its list, and its count,
-which it makes without a list. At least one form has to have other houses than without the rule."""
+which it makes without a list. At least one form has to have other houses than without the rule. The forms have the older words `section` and `deck`, which the
+reference knows."""
 import json
 import os
 import random

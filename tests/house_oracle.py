@@ -140,7 +140,7 @@ def compare_variants():
         values = section.split()
         names = ["machine storeys", "machine roof", "body storeys", "body roof", "bay storeys", "bay roof", "cladding"]
         names = names[: 2 * len([v for v in values if v.isdigit()])] + names[6:]
-        where = "section(" + ", ".join(f"{n} {v}" for n, v in zip(names, values)) + ")"
+        where = "option(" + ", ".join(f"{n} {v}" for n, v in zip(names, values)) + ")"
         got = counts(oracles + "/stdlib/lahave-form.plan", "--library", wanted["library"], "--plan", wanted["plan"], "--where", where)
         same(f"LaHave, {section}", [got.get(part) for part in parts], [str(number) for number in parts.values()])
     source = [oracles + "/stdlib/row-houses.plan", "--library", "row-houses"]

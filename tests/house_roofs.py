@@ -25,7 +25,7 @@ def roof():
 
 
 def roofs(zone):
-    return f"  section {zone} roof = {' | '.join(sorted({roof() for _ in range(4)}))}"
+    return f"  option {zone} roof = {' | '.join(sorted({roof() for _ in range(4)}))}"
 
 
 print(f"""schema row {{
@@ -40,11 +40,11 @@ form roofed of row {{
   spine body
   wall {chance.randint(2, 6) * 2}"
   partition {chance.randint(1, 3) * 2}"
-  deck {inches(6, 11)}
+  floor {inches(6, 11)}
   roof {inches(3, 11)}
-  section body storeys = 1 | 2
-  section shed storeys = 1
-  section bay storeys = 1
+  option body storeys = 1 | 2
+  option shed storeys = 1
+  option bay storeys = 1
 {roofs("shed")}
 {roofs("body")}
 {roofs("bay")}

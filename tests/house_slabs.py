@@ -38,11 +38,11 @@ def length(text):
 def read_form(path):
     text = re.sub(r"#.*", "", open(path).read())
     text = text[re.search(r'\bform \S+ (?:"[^"]*" )?of ', text).start():]
-    size = {word: length(re.search(rf"^\s*{word} (\S+(?: [\d/]+\")?)", text, re.M)[1]) for word in ("wall", "partition", "deck", "roof")}
+    size = {word: length(re.search(rf"^\s*{word} (\S+(?: [\d/]+\")?)", text, re.M)[1]) for word in ("wall", "partition", "floor", "roof")}
     levels = [0]
     for high in re.findall(r"^\s*storey \S+ (\S+(?: [\d/]+\")?)", text, re.M):
         levels.append(levels[-1] + length(high))
-    choices = re.findall(r"^\s*section (\S+)(?: (roof|storeys))? =", text, re.M)
+    choices = re.findall(r"^\s*option (\S+)(?: (roof|storeys))? =", text, re.M)
     return size, levels, choices
 
 
@@ -208,7 +208,7 @@ def wanted_at(house, storey, x, y):
         return None
     foot, h = house.foot(cell), house.height(cell, x, y)
     found = {("roof", cell, foot + h, foot + h + house.size["roof"])}
-    base = foot - (house.size["deck"] if house.roof(cell).open else 0)
+    base = foot - (house.size["floor"] if house.roof(cell).open else 0)
     if is_wall(house, cell, x, y) and foot + h > base:
         found.add(("gable", cell, base, foot + h))
     return found

@@ -16,9 +16,9 @@ form f of row {{
   spine body
   wall 200mm
   partition 100mm
-  deck 300mm
+  floor 300mm
   roof 200mm
-  section wing storeys = 1
+  option wing storeys = 1
   function room at {room}
   function hall at {hall}
   opening door wide {door} high {high} passage {words}
@@ -104,7 +104,7 @@ rule("of an alcove, with one open side, nothing is asked", dict(WING, more=WING[
 
 # Under an open shed, low at the front, that rises 1 in 4 from 1.5 m at the outer side of the wall: at 2 m from there it is 2 m above the floor.
 LOW = dict(storeys="storey ground 1.5m", high="1.1m", more="face cell(any) outside back = party\n  face cell(any) outside left = hatch\n  face cell(any) outside = wall\n  "
-           "section body roof = shed(front, 1:4, open)")
+           "option body roof = shed(front, 1:4, open)")
 rule("under an open roof one stands where that is high enough", LOW,
      dict(more=LOW["more"] + "\n  opening hatch wide 850mm high 1.1m passage sliding near front 1.875m"), dict(more=LOW["more"] + "\n  opening hatch wide 850mm high 1.1m passage sliding near front 1.874m"))
 
@@ -115,7 +115,7 @@ form f of row {{
   storey upper 2.7m
   wall 200mm
   partition 100mm
-  deck 300mm
+  floor 300mm
   roof 200mm
   {function}
   opening door wide 900mm high 2m passage sliding {near}

@@ -76,8 +76,8 @@ class Form:
         lines = [f"schema hut {{ width role length = {' | '.join(map(inches, self.widths))}",
                  f'  zone body role band = space({inches(self.deep)}) zone wing role band = none role absent{f" | porch({wing})" if wing else ""} }}',
                  "form huts of hut {", *(f"  storey s{k} {inches(self.high)}" for k in range(self.storeys)), "  spine body",
-                 f"  wall {inches(self.wall)}", f"  partition {inches(self.partition)}", f"  deck {inches(self.deck)}", '  roof 6"',
-                 f"  section wing storeys = 1" if wing else ""]
+                 f"  wall {inches(self.wall)}", f"  partition {inches(self.partition)}", f"  floor {inches(self.deck)}", '  roof 6"',
+                 f"  option wing storeys = 1" if wing else ""]
         first = 's0' if self.storeys > 1 else 'body'
         lines += ["  function hall at cell(body) or cell(wing)" if not self.many else f"  function hall at cell(body, {first}) or cell(wing)",
                   f"  function room at cell(body, {inches(self.widths[0])})", "  function bath at cell(body, s0)" if self.storeys == 1 else "  function bath at cell(wing)"]

@@ -408,7 +408,7 @@ static tn_status stand_up(const tn_bare_cells *bare, tn_house *house, tn_error *
     if (found->form)
         return tn_house_stand(found->form, found->trays, found->length, found->shapes, house, error);
     tn_status status = tn_fail(error, TN_INVALID, E_BAD_HOUSE, "there is nothing to draw: the form has no house");
-    tn_error_help(error, "its `forbid` lines forbid every section; leave out -o to read that");
+    tn_error_help(error, "its `forbid` lines forbid all combinations of options; leave out -o to read that");
     return status;
 }
 

@@ -776,7 +776,7 @@ static tn_status choose(tn_house_explaining *e, const tn_explain_request *reques
         *form = rule == TN_NO_RECORD ? 0 : module->HOUSE_RULE_records[rule].form;
         return rule != TN_NO_RECORD
                    ? TN_OK
-                   : tn_session_refuse(e->session, "name a rule that asks for cells, rooms or sections",
+                   : tn_session_refuse(e->session, "name a rule that asks for cells, rooms or options",
                                        "the file has no rule `%.80s` about houses", request->rules.items[0]);
     }
     uint32_t found = tn_house_library_find(module, library);

@@ -60,7 +60,7 @@ void tn_explained_tile_said(const tn_failing_tile *tile, tn_buffer *out)
 void tn_explained_cells_said(const tn_explained_cells *explained, tn_buffer *out)
 {
     if (explained->sectionless)
-        tn_buffer_printf(out, "form `%s` has no house: its `forbid` lines forbid every section", explained->form);
+        tn_buffer_printf(out, "form `%s` has no house: its `forbid` lines forbid all combinations of options", explained->form);
     else if (explained->bare.count > 0)
         tn_buffer_printf(out, "form `%s` has no house on this plan", explained->form);
     else if (explained->houseless)

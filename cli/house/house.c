@@ -286,7 +286,7 @@ const tn_command tn_command_house = {
         "NAME]",
     .description =
         "Stands a plan up in a form (docs/houses.md): storeys, rooms with their functions, walls with their "
-        "openings, decks, roofs, and what stands in the rooms. HOUSE is a house line in quotes: `plan ; section ; "
+        "openings, floors, roofs, and what stands in the rooms. HOUSE is a house line in quotes: `plan ; options ; "
         "functions ; faces ; tiles`, or a JSON object with one. Values may be left out (`_`), and parts (`-`, or "
         "nothing at "
         "the end): it is then the first house of the library, or of the form, that has what is typed. "

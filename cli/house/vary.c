@@ -82,7 +82,7 @@ const tn_command tn_command_vary = {
     .summary = "list what else a house could be",
     .usage = "FILE HOUSE [--at TRAY.ZONE.STOREY] [--library NAME] [--json]\nFILE '#P:V' [--at TRAY.ZONE.STOREY]",
     .description =
-        "Lists each other value of one choice with which the house stays in its library: of the section, of the "
+        "Lists each other value of one choice with which the house stays in its library: of the options, of the "
         "function of a cell, of what is in a face, of a tile. Each line has the number of the house that this makes, "
         "what changes, "
         "and the differences in floor area and cost, if there are any. All other choices stay as they are where they "

@@ -307,7 +307,7 @@ const tn_command tn_command_best = {
         "with its name #P:V and its values; --least and --most name measures of houses or of plans "
         "(docs/houses.md); by measures of walks it is asked with --plan. With --diverse they are the best houses on N "
         "different plans, in order; where there are not "
-        "so many plans with houses, then those whose storeys, roofs or other choices of the section differ from those "
+        "so many plans with houses, then those whose storeys, roofs or other options differ from those "
         "of "
         "each before on their plan, then their functions, then what is in their faces, then their tiles.",
     .example = "$ tartan best lahave-houses 12 --least cost --then-most daylight",

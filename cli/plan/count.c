@@ -358,7 +358,7 @@ static void count_houses_text(const tn_counted_houses *c, const tn_module *modul
     write_label("plans", c->plans, labels, out);
     if (c->has_zoned) {
         write_label("with a house", c->plans_with_houses, labels, out);
-        write_label("with sections", c->with_sections, labels, out);
+        write_label("with options", c->with_sections, labels, out);
         write_label("with functions", c->zoned, labels, out);
     }
     if (c->has_faced)
@@ -564,9 +564,9 @@ const tn_command tn_command_count = {
         "Counts are exact, whatever their size. They are computed from the library's automaton, without "
         "listing plans.\n\n"
         "For a library of houses (docs/houses.md) it counts the plans, the houses, and what they are without their "
-        "tiles; the plans that have a house, and with how many sections and functions; the houses by length, and by "
+        "tiles; the plans that have a house, and with how many options and functions; the houses by length, and by "
         "each "
-        "value of each choice of the section. --plan counts those on one plan. "
+        "value of each option. --plan counts those on one plan. "
         "--clauses counts how many of the houses that the form allows each clause keeps out, and how many only it "
         "keeps out; where the houses are counted together, also how many states that takes for each clause by itself. "
         "--by counts the houses by a measure of houses or of plans.\n\n"

@@ -130,7 +130,7 @@ static void explain_cells_text(const tn_explained_cells *explained, tn_buffer *o
                          explained->library);
     if (explained->houseless)
         tn_buffer_printf(out,
-                         "`tartan explain` with a house on this plan, PLAN ; SECTION ; FUNCTIONS ; FACES, names the "
+                         "`tartan explain` with a house on this plan, PLAN ; OPTIONS ; FUNCTIONS ; FACES, names the "
                          "cells that are at fault and what does not fit there\n");
     for (size_t i = 0; i < explained->bare.count; i++)
         write_bare(&explained->bare.items[i], false, out);

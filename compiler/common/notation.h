@@ -47,6 +47,10 @@ typedef struct tn_front {
     tn_format_spell *spell; /* how words of the language are written */
     bool nests;             /* has brackets that come in pairs, or else an error of syntax */
 
+    /* The text with newer words for older ones that are still read, zero-ended, and in *said what there is to say of
+     * that; NULL: it has none. NULL as a function: no words were renamed. Out of memory is the arena's to remember. */
+    const char *(*renew)(tn_arena *arena, const tn_source *source, const tn_tokens *tokens, const char **said);
+
     /* Leaves out what is white space and was read into tokens; NULL: nothing is. */
     void (*trim)(const tn_source *source, tn_tokens *tokens);
 

@@ -94,6 +94,7 @@ const tn_front tn_front_plan = {
     .settable = true,
     .lay_out = tn_format_plan,
     .spell = tn_format_small_letters,
+    .renew = tn_format_newer_words,
     .nests = true,
     .rename = rename_clauses,
 };

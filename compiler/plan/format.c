@@ -84,11 +84,11 @@ static bool starts_clause(const tn_format *format, size_t i)
            (!is_word(format, i, TN_AT(RULE), TN_AS_OPERAND) || format->tokens[i + 1].kind == TN_TOKEN_NUMBER);
 }
 
-/* A line of a form; `section(` is a part of one. */
+/* A line of a form; `option(` is a part of one. */
 static bool starts_part(const tn_format *format, size_t i)
 {
     return is_word(format, i, TN_AT(FORM), TN_AS_KEYWORDS) &&
-           !(is_word(format, i, TN_AT(SECTIONS), TN_AS_CALL) && tn_format_is(format, i + 1, "("));
+           !(is_word(format, i, TN_AT(OPTIONS), TN_AS_CALL | TN_AS_SPELLING) && tn_format_is(format, i + 1, "("));
 }
 
 static bool starts_tile_part(const tn_format *format, size_t i)
@@ -99,7 +99,7 @@ static bool starts_tile_part(const tn_format *format, size_t i)
 static bool at_part_break(const tn_format *format, size_t i)
 {
     return tn_format_is(format, i, "=") || tn_format_is(format, i, "|") ||
-           is_word(format, i, TN_AT(FUNCTION) | TN_AT(CELLS) | TN_AT(SECTIONS), TN_AS_INFIX);
+           is_word(format, i, TN_AT(FUNCTION) | TN_AT(CELLS) | TN_AT(OPTIONS), TN_AS_INFIX);
 }
 
 static bool is_expectation(const tn_format *format, size_t i)

@@ -288,7 +288,7 @@ static void report_value(const looking *l, const tn_choice_record *choice, const
     if (tn_finding_allowed(&l->finder, W_VALUE_NEVER, library.span) ||
         tn_finding_allowed(&l->finder, W_VALUE_NEVER, place))
         return;
-    tn_diagnostic *d = tn_report(list_of(l), W_VALUE_NEVER, library.span, "no house of `%s` has `section(%s %s)`",
+    tn_diagnostic *d = tn_report(list_of(l), W_VALUE_NEVER, library.span, "no house of `%s` has `option(%s %s)`",
                                  library.name, tn_text(l->module, choice->name), tn_text(l->module, shape->spelling));
     tn_note(list_of(l), d, &place, "the value is here");
     tn_help(list_of(l), d,

@@ -94,7 +94,7 @@ void tn_change_text(const tn_house *house, const tn_house_change *c, tn_change_w
     switch (c->kind) {
     case TN_CHANGE_SECTION:
         choice = tn_form_choice(form, c->of);
-        snprintf(w->where, sizeof w->where, "section %s", text_of(house, choice->name));
+        snprintf(w->where, sizeof w->where, "option %s", text_of(house, choice->name));
         snprintf(w->from, sizeof w->from, "%s",
                  text_of(house, form->module->SHAPE_records[choice->shape_first + c->from].spelling));
         snprintf(w->to, sizeof w->to, "%s",

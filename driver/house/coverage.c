@@ -58,7 +58,7 @@ static tn_status add_section(measuring *m, tn_error *error)
         const tn_choice_record *choice = &m->module->CHOICE_records[m->form->choice_first + i];
         for (uint32_t k = 0; status == TN_OK && choice->shape_count > 1 && k < choice->shape_count; k++) {
             const tn_shape_record *shape = &m->module->SHAPE_records[choice->shape_first + k];
-            snprintf(text, sizeof text, "section %s %s", tn_text(m->module, choice->name),
+            snprintf(text, sizeof text, "option %s %s", tn_text(m->module, choice->name),
                      tn_text(m->module, shape->spelling));
             status = add_part(m->coverage, 0, "section", text, SPAN(shape), error);
         }

@@ -90,7 +90,7 @@ static void warn_values(const tn_survey *s)
             if (s->with[k] || tn_survey_allows(s, W_SHAPE_NEVER, TN_SURVEY_SPAN(shape)))
                 continue;
             tn_diagnostic *d = tn_report(tn_survey_list(s), W_SHAPE_NEVER, TN_SURVEY_SPAN(shape),
-                                         "no section has this value of `%s`", tn_text(module, choice->name));
+                                         "no house of the form has this value of `%s`", tn_text(module, choice->name));
             tn_help(tn_survey_list(s), d, "the form's `forbid` lines leave no combination with it");
         }
     }
@@ -103,7 +103,7 @@ static void warn_all(const tn_survey *s)
     if (tn_survey_allows(s, W_SHAPE_NEVER, TN_SURVEY_SPAN(form)))
         return;
     tn_diagnostic *d = tn_report(tn_survey_list(s), W_SHAPE_NEVER, TN_SURVEY_SPAN(form),
-                                 "form `%s` has no house: its `forbid` lines forbid every section",
+                                 "form `%s` has no house: its `forbid` lines forbid all combinations of options",
                                  tn_text(s->form.module, form->name));
     tn_help(tn_survey_list(s), d, "leave one of them out, or join what they ask by `and`");
 }
@@ -144,7 +144,7 @@ static void warn_materials(const tn_survey *s, const section_use *seen)
                 : leafless       ? "the opening is `leafless`: nothing stands in it"
                 : layered        ? "such parts consist of layers: a material is for one of these, by its name"
                 : seen->holds[i] ? "where it is meant for, lines before it name all of its parts"
-                                 : "no section of the form is as its `where` says");
+                                 : "no combination of options is as its `where` says");
     }
 }
 

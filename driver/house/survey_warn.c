@@ -16,7 +16,7 @@ static void warn_functions(const tn_survey *s)
         tn_diagnostic *d = tn_report(tn_survey_list(s), W_FUNCTION_NEVER, TN_SURVEY_SPAN(rule),
                                      "no cell may have the function `%s`", tn_text(s->form.module, rule->name));
         tn_help(tn_survey_list(s), d,
-                "no one cell, in a storey that some section has, meets all items after `at` and is kept by every "
+                "no one cell, in a storey that some house has, meets all items after `at` and is kept by every "
                 "`void` and `no`");
     }
 }

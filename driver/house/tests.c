@@ -133,7 +133,7 @@ static void report_plan(tn_opened *opened, const tn_test_case *test, const tn_er
     if (missing)
         tn_note(list, d, NULL, "%s%s%s", missing + 2, error->help[0] ? ": " : "", error->help);
     tn_help(list, d,
-            "write the line of a house: `[plan ; section ; functions ; faces]`; parts at the end may be left out if "
+            "write the line of a house: `[plan ; options ; functions ; faces]`; parts at the end may be left out if "
             "they leave no choice");
 }
 

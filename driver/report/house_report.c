@@ -334,7 +334,7 @@ static bool put_head(const tn_house_reporting *r)
            (!has_party_layers(r) ||
             (tn_page_html(&r->page, ", party walls as thick") && put_layers(r, TN_LAYERED_PARTY))) &&
            tn_page_html(&r->page, ", partitions ") && house_put_length(r, form->partition) &&
-           put_layers(r, TN_LAYERED_PARTITION) && tn_page_html(&r->page, ", decks ") &&
+           put_layers(r, TN_LAYERED_PARTITION) && tn_page_html(&r->page, ", floors ") &&
            house_put_length(r, form->deck) && put_layers(r, TN_LAYERED_DECK) && tn_page_html(&r->page, ", roofs ") &&
            house_put_length(r, form->roof) && put_layers(r, TN_LAYERED_ROOF) &&
            tn_page_html(&r->page, ".</p>\n<nav><a href=\"#houses\">Houses</a> <a href=\"#counts\">Counts</a> "

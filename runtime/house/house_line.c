@@ -1,4 +1,4 @@
-/* Reads house lines: `plan ; section ; functions ; faces ; tiles`, in this order; trays are between bars, and a part
+/* Reads house lines: `plan ; options ; functions ; faces ; tiles`, in this order; trays are between bars, and a part
  * without words is `-`. */
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +18,7 @@ enum {
     TILES = TN_LINE_TILES,
     PARTS = TN_LINE_PARTS
 };
-static const char *const part_names[] = {"plan", "section", "functions", "faces", "tiles"};
+static const char *const part_names[] = {"plan", "options", "functions", "faces", "tiles"};
 
 /* What is wrong with a line that may leave values out, all of it: NULL where the first mistake ends the reading, and
  * where `_` is no value. */
@@ -246,7 +246,7 @@ static void help_section(tn_house *house, tn_error *error)
                       tn_text(form->module, choice->name));
         return;
     }
-    tn_error_help(error, "its `forbid` lines say which sections there are not");
+    tn_error_help(error, "its `forbid` lines say which options do not go together");
 }
 
 static tn_status check_section(tn_house *house, const char *line, size_t size, tn_error *error)
@@ -258,7 +258,7 @@ static tn_status check_section(tn_house *house, const char *line, size_t size, t
     tn_word first = next_word(&reader);
     while (end > 0 && is_blank(line[end - 1]))
         end--;
-    tn_fail(error, TN_INVALID, E_BAD_HOUSE, "the form forbids this section");
+    tn_fail(error, TN_INVALID, E_BAD_HOUSE, "the form forbids these options together");
     help_section(house, error);
     if (first.size > 0)
         tn_error_place(error, 0, first.column, end + 1);
@@ -466,7 +466,7 @@ static tn_status check_parts(const char *line, size_t size, tn_error *error)
         if (line[i] != ';' || ++parts < PARTS)
             continue;
         tn_fail(error, TN_INVALID, E_BAD_HOUSE, "a house line has five parts, and this is a sixth");
-        tn_error_help(error, "the parts are: plan ; section ; functions ; faces ; tiles");
+        tn_error_help(error, "the parts are: plan ; options ; functions ; faces ; tiles");
         tn_error_place(error, 0, i + 1, i + 2);
         return TN_INVALID;
     }
@@ -645,7 +645,7 @@ static tn_status check_any(const tn_house_line *line, tn_error *error)
     if (at < line->size)
         return TN_OK;
     tn_status status = tn_fail(error, TN_INVALID, E_BAD_HOUSE, "the house line is empty");
-    tn_error_help(error, "it begins with a plan; what is left out behind that is found: plan ; section ; functions ; "
+    tn_error_help(error, "it begins with a plan; what is left out behind that is found: plan ; options ; functions ; "
                          "faces ; tiles");
     tn_error_place(error, 0, 1, 1);
     return status;

@@ -18,6 +18,10 @@
 
 /* ---- enumerations: values.def */
 
+/* What floors were called as a part that materials are for: it is what they are called still if something of the author's
+ * has the name that they have now (TN_OF_DECK). */
+#define TN_FLOOR_BEFORE "deck"
+
 /* As many bytes as the highest number and one. */
 #define VALUE(ID, NUMBER, WORD) char of_##ID[(NUMBER) + 1];
 #define ENUMERATION(NAME, TYPE, VALUES)                                                                                \

@@ -28,7 +28,7 @@ golden json_twice "tartan house cabins.plan '{\"house\": \"\", \"house\": \"\"}'
 golden no_form "tartan house sheds.plan ''"
 golden no_format "tartan house cabins.plan '' -o house.stl"
 golden too_near "tartan house near.plan \"9' open:9' | 9' open:9'6\\\" ; - ; hall | hall\""
-printf "schema s { width = 4'  zone body = room(6') }\nlibrary none using s { trays 0 }\nform f of s { storey low 8' wall 8\" partition 8\" deck 8\" roof 8\" }\nlibrary h from none in f { }\n" >"$scratch/none.plan"
+printf "schema s { width = 4'  zone body = room(6') }\nlibrary none using s { trays 0 }\nform f of s { storey low 8' wall 8\" partition 8\" floor 8\" roof 8\" }\nlibrary h from none in f { }\n" >"$scratch/none.plan"
 golden no_cell "tartan house $scratch/none.plan '#0' --library h -o $scratch/none.dxf"
 
 # Values that are left out: the first house that has the others; the value that leaves none; all mistakes at once.
@@ -100,7 +100,7 @@ golden explained_rank_past "tartan explain cabins.plan '#99999999' --library cot
 golden explained_number_past "tartan explain cabins.plan '#10:x'"
 golden sample_none_on_plan "tartan sample bare.plan 1 --library halls --plan '#0'"
 golden sample_none "tartan sample bare.plan 1 --library halls"
-golden sample_few "tartan sample cabins.plan 100 --library cottages --plan \"14' room:14' none | 14' room:14' none | 14' room:14' none\" --where 'section(body storeys 1) and section(body roof gable)' --where 'room(kitchen, not by window)' --where 'room(bedroom, not by window or open)' --where 'room(living, not by open)' --seed 1 | wc -l"
+golden sample_few "tartan sample cabins.plan 100 --library cottages --plan \"14' room:14' none | 14' room:14' none | 14' room:14' none\" --where 'option(body storeys 1) and option(body roof gable)' --where 'room(kitchen, not by window)' --where 'room(bedroom, not by window or open)' --where 'room(living, not by open)' --seed 1 | wc -l"
 golden explained_near "tartan explain lahave-complete \"12' double public great dense:8' open:12' open:4' | 8' single - - dense:8' dense:12' empty | 4' single - - dense:8' open:8' empty | 12' single - - dense:8' open:12' open:4' ; 1 flat 2 gable(12:12) 1 flat shingle ; kitchen hall void entry | bath stair stair | store passage passage | bath bedroom bedroom seat ; glass\""
 golden explained_line "tartan explain cabins.plan \"14' room:14' none ; 3\""
 golden behind_roof "tartan explain lean-to.plan \"12' room:10' open:6' ; 2 1 shed(front,4:12) ; living bedroom veranda ; window window window window\""
@@ -120,7 +120,7 @@ form cells of row {
   storey ground 3m
   wall 300mm
   partition 100mm
-  deck 250mm
+  floor 250mm
   roof 200mm
   function bedroom at cell(rooms)
   opening sash wide 1m high 1m sill 1m
@@ -141,7 +141,7 @@ form tower-form of tower {
   storey hall 2.8m
   wall 600mm
   partition 150mm
-  deck 300mm
+  floor 300mm
   roof 250mm
   function stair at cell(well)
   flight dogleg wide 1.2m rise 150mm..190mm going 260mm turn half
@@ -254,7 +254,7 @@ is 'all houses on a plan, each once' "$("$TARTAN" sample "$files/huts.plan" 1000
 many() {
     printf 'schema s { width = 8'"'"'\n zone body = open(8'"'"') }\nform f of s {\n'
     for ((i = 0; i < $1; i++)); do printf '  storey s%s 9'"'"'\n' "$i"; done
-    printf "  wall 6\" partition 4\" deck 1' roof 10\"\n"
+    printf "  wall 6\" partition 4\" floor 1' roof 10\"\n"
     for ((i = 0; i < $2; i++)); do printf '  function f%s at cell(body)\n' "$i"; done
     printf '}\nlibrary rows using s { trays 1..1 }\nlibrary tall from rows in f { }\n'
 }
@@ -421,7 +421,7 @@ golden coverage_states 'tartan test house-depends.plan --coverage --max-states 6
 
 # How many houses depend on a part is what counting says of three libraries: as it is written, with the part as one that never matches, and
 # with the clauses of both (what is in just one of two sets is all of both less twice what they share).
-never='(section(body storeys 1) and section(body storeys 2))'
+never='(option(body storeys 1) and option(body storeys 2))'
 small() { "$TARTAN" count "$1" --library small --json | sed 's/.*"houses":"\([0-9]*\)".*/\1/'; }
 depends() { # LINE PART N: the N-th of that text in the table
     said=$("$TARTAN" test "$files/house-depends.plan" --coverage | awk -v part="  $2  " -v n="$3" 'index($0, part) && --n == 0 { gsub(",", "", $(NF - 2)); print $(NF - 2); exit }')
@@ -452,7 +452,7 @@ is 'cramped is apart from bedroom' 0 "$(matched 'sum(area of cell(bedroom), a < 
 is 'dark-living is not inside of bedroom' no "$([ "$(matched dark-living)" = "$(matched 'dark-living and cell(bedroom)')" ] && echo yes || echo no)"
 
 # What a test notices is what makes one fail where the part is written as one that never matches.
-never='(section(body storeys 1) and section(body storeys 2))'
+never='(option(body storeys 1) and option(body storeys 2))'
 noticed() { # PART LINE
     verdict=$("$TARTAN" test "$files/cabins.plan" --coverage | awk -v part="  $1  " 'index($0, part) { print $NF; exit }')
     sed "$2s/$(sed 's/[.*]/[&]/g' <<<"$1")/$never/" "$files/cabins.plan" >"$scratch/cottage.plan"

@@ -25,8 +25,8 @@ schema hut {
 form huts of hut {
   storey ground 9'
   storey loft 8'
-  wall 6" partition 4" deck 1' roof 6"
-  section wing storeys = 1
+  wall 6" partition 4" floor 1' roof 6"
+  option wing storeys = 1
   function den at cell(body)
   function seat at cell(wing)
   opening sash wide 3' high 4' sill 2'8"

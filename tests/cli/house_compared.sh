@@ -67,7 +67,7 @@ cat >"$scratch/rules.plan" <<END
 use "$PWD/priced.plan"
 rule dear = price > 43000 and floors < 700sf
 library cheap from rows in barn-form {
-  require section(body roof gable)
+  require option(body roof gable)
   require price <= 44000
   prune 60 * floors / 1sf > price as spacious
 }

@@ -7,7 +7,7 @@ name=house_limits
 {
     printf 'schema s { width = 8'"'"'\n zone body = open(8'"'"') }\nform f of s {\n'
     for ((i = 0; i < 40; i++)); do printf '  storey s%s 9'"'"'\n' "$i"; done
-    printf "  wall 6\" partition 4\" deck 1' roof 10\"\n"
+    printf "  wall 6\" partition 4\" floor 1' roof 10\"\n"
     for ((i = 0; i < 200; i++)); do printf '  function f%s at cell(body)\n' "$i"; done
     printf '}\nlibrary rows using s { trays 1..1 }\nlibrary tall from rows in f { }\n'
 } >"$scratch/city.plan"
@@ -17,7 +17,7 @@ tower() { # STOREYS
     printf 'schema t { width role length = 4m | 6m  zone core role band = core(5m)  zone flat role band = flat(6m) | none }\nform tower of t {\n'
     for ((i = 0; i < $1; i++)); do printf '  storey s%s 3m\n' "$i"; done
     cat <<'END'
-  wall 30cm  partition 10cm  deck 30cm  roof 30cm
+  wall 30cm  partition 10cm  floor 30cm  roof 30cm
   function hall at cell(core)
   function home at cell(flat)
   function den at cell(flat)
@@ -54,7 +54,7 @@ form two of bays {
   storey upper 3m
   wall 300mm
   partition 100mm
-  deck 300mm
+  floor 300mm
   roof 200mm
   function living at cell(body)
   function bedroom at cell(body)

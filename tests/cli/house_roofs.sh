@@ -24,6 +24,6 @@ for seed in ${TARTAN_SEEDS:-1 2 6 14 103 172}; do
 done
 
 # Two sheds that rise to a ridge, of slopes and depths that differ: no wall is below it.
-"$TARTAN" house row-houses "$("$TARTAN" sample row-houses 1 --library row-houses --where 'section(street roof shed)' --seed 3)" -o house.json
+"$TARTAN" house row-houses "$("$TARTAN" sample row-houses 1 --library row-houses --where 'option(street roof shed)' --seed 3)" -o house.json
 is 'row houses' "$(python3 -B "$tests/house_slabs.py" house.json "$here/../../stdlib/row-houses.plan" 12)" fine
 finish

@@ -64,8 +64,8 @@ cat >"$scratch/lean-to.plan" <<'PLAN'
 schema shed { bay = 5m  zone garden = none | room(5.4m)  zone way = path(2.4m) }
 library sheds using shed { trays 2..2 }
 form lean-to of shed {
-  storey ground 3m  spine way  wall 400mm  partition 120mm  deck 350mm  roof 250mm
-  section garden roof = shed(front, 1:3)
+  storey ground 3m  spine way  wall 400mm  partition 120mm  floor 350mm  roof 250mm
+  option garden roof = shed(front, 1:3)
   function space at cell(any)
 }
 PLAN

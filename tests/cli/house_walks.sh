@@ -16,7 +16,7 @@ form f of row {
   storey ground 2.7m
   wall 200mm
   partition 100mm
-  deck 300mm
+  floor 300mm
   roof 200mm
   way 800mm
   function first at cell(3m)
@@ -127,7 +127,7 @@ form f of row {
   storey ground 2.7m
   wall 200mm
   partition 100mm
-  deck 300mm
+  floor 300mm
   roof 200mm
   way 700mm
   function room at cell(any)
@@ -239,7 +239,7 @@ form g of row {
   storey ground 2.7m
   wall 200mm
   partition 100mm
-  deck 300mm
+  floor 300mm
   roof 200mm
   way 700mm
   function room at cell(any)
@@ -346,7 +346,7 @@ form f of row {
   storey upper 2.7m
   wall 200mm
   partition 100mm
-  deck 300mm
+  floor 300mm
   roof 200mm
   way 800mm
   function hall at cell(ground)

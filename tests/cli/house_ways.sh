@@ -16,7 +16,7 @@ form houses of row {
   storey upper 2.7m
   wall 280mm
   partition 110mm
-  deck 260mm
+  floor 260mm
   roof 200mm
   function bedroom at cell(3m)
   function stair at cell(2.4m)

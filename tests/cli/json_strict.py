@@ -128,15 +128,15 @@ test wide { match [7'-9" glazed open:9'6"] }
 HOUSES = """schema tiny { width role length = 6' 2" zone main role band = open(9'6") role void | dense(8'2") }
 library base using tiny { trays 1..1 }
 form f "%(w)s" of tiny {
-  storey low "%(w)s" 9' 4 1/2" wall 12" partition 4" deck 10" roof 8"
-  section main roof = vault(3'6") | gable(9:12, eaves 1'6")
+  storey low "%(w)s" 9' 4 1/2" wall 12" partition 4" floor 10" roof 8"
+  option main roof = vault(3'6") | gable(9:12, eaves 1'6")
   function L at cell(main)
 }
-rule vaulted "%(w)s" using f = section(main roof vault)
+rule vaulted "%(w)s" using f = option(main roof vault)
 measure rooms "%(w)s" using f = 2' 1" * quantity(cell(L))
 measure open-ones using f = quantity(cell(main open))
 library h "%(w)s" from base in f { }
-library gabled from base in f { require section(main roof gable) require vaulted or section(main roof gable) }
+library gabled from base in f { require option(main roof gable) require vaulted or option(main roof gable) }
 library vaults from base in f { require vaulted }
 """
 KIT = """unit 10 x 8 x 10;
@@ -283,7 +283,7 @@ writes("json", "count", houses, "-l", "gabled", "--clauses", "--json", inches=CH
 writes("json", "count", houses, "-l", "h", "--by", "rooms", "--json")
 writes("json", "diff", houses, other, "-l", "gabled", "--json")
 writes("json", "diff", houses, write("-fewer.plan", (HOUSES % {"w": WORDS}).replace("gable(9", "vaulted(9").replace("vaulted(9", "gable(9")
-       .replace("section(main roof gable)", "section(main roof vault)")), "-l", "gabled", "--json", inches=CHANGED)
+       .replace("option(main roof gable)", "option(main roof vault)")), "-l", "gabled", "--json", inches=CHANGED)
 writes("format", "enumerate", houses, "-l", "h", "--format", "json", inches=CHANGED)
 writes("format", "sample", houses, "3", "-l", "h", "--seed", "1", "--format", "json", inches="\"")
 writes("format", "best", houses, "2", "-l", "h", "--least", "rooms", "--format", "json", inches="\"")

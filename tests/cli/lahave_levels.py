@@ -204,7 +204,7 @@ def table():
     houses = json.loads(run(*house, "--clauses"))
     sections = 2 * 2 * 2 * 3 * 1 * 2 * 2
     rows = [("trays", every, trays), ("plans of four to eight trays", plans["generated"], plans["kept"]), ("zoned trays", 8 * every, zoned_trays),
-            ("zoned plans", zoned["generated"], zoned["kept"]), ("plans, and those with a zoning", plans["kept"], bare["kept"]), ("sections", sections, sections - 24 - 16 + 4),
+            ("zoned plans", zoned["generated"], zoned["kept"]), ("plans, and those with a zoning", plans["kept"], bare["kept"]), ("options", sections, sections - 24 - 16 + 4),
             ("houses on one of them", houses["without_clauses"], houses["houses"])]
     livable = count("lahave-complete", "--no-effects", library="livable")
     same("docs/lahave.md has the livable plans", "that one can live on | | %s |" % grouped(livable["kept"]) in page, True)

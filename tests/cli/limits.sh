@@ -61,10 +61,10 @@ form vast of strip {
   storey upper 3m
   wall 200mm
   partition 100mm
-  deck 300mm
+  floor 300mm
   roof 200mm
-  section room storeys = 2
-  section room roof = flat
+  option room storeys = 2
+  option room roof = flat
   function sit at cell(room)
   face cell(any) under cell(any) = stair
   face cell(any) outside = wall

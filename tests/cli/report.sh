@@ -148,7 +148,7 @@ for i in range(3):
         assert int(rows[f"{function} rooms"][i]) == len(of) and near(f"{function} net sf", sum(of)), function
     assert int(rows["bedrooms"][i]) == sum(r["function"] == "bedroom" for r in rooms)
     plan = lines[i].split(" ; ")[0]
-    assert rows["plan"][i].replace("&quot;", '"') == plan and "section" not in rows
+    assert rows["plan"][i].replace("&quot;", '"') == plan and "options" not in rows
     assert lines[i].split(" ; ")[1].split()[2] == rows["body roof"][i]
 assert page.count('<section class="card house">') == 3 and page.count("<h4>Rooms</h4>") == 3
 assert page.count("<svg") >= 4, page.count("<svg")

@@ -74,9 +74,11 @@ def without_measures(source):
 
 
 def with_schema(source, item):
-    """As the reference reads it: without what changes no house, and with the schema that a library is of."""
+    """As the reference reads it: without what changes no house, with the words that it knows, and with the schema that a library is of."""
     lines = [line for line in item.text.split("\n") if not re.match(r"\s*(number|material|allow)\b", line)]
     text = re.sub(r'(?<!\d)"(?:\\.|[^"\\])*"|\b(glazed|leafless)\b', "", "\n".join(lines))
+    text = re.sub(r"\boption(?= *\()|^( *)option\b", r"\1section", text, flags=re.M)    # it knows the words of before
+    text = re.sub(r"^( *)floor (?=\d)", r"\1deck ", text, flags=re.M)
     if item.kind != "library" or item.using or item.older:
         return text
     return text.replace("{", f"using {source.about(item)[0]} {{", 1)

@@ -14,17 +14,17 @@ LENGTHS = {
 
 WEIGHTS.update({
     "size: NUMBER": plans.MISTAKE, "shape: NAME OPEN arguments CLOSE": 2, "cell_not: CELL OPEN specifier CLOSE": 5, "cell_not: NOT cell_not": .2,
-    "cell_not: OPEN cells CLOSE": .2, "cells: cell_ors": .08, "cell_and: cell_ands": .1, "sections: section_ors": 1, "section_and: section_ands": 2, "section_ands: section_ands AND section_not": 2,
-    "material_where: WHERE sections": 2, "tile_part: stretch_word NAME doc reaches drawn": 2, "drawn: %empty": 12, "drawn: SYMBOL OPEN_BRACE symbol_lines CLOSE_BRACE": 2,
-    "section_not: SECTION OPEN section_items CLOSE": 4, "opening_part: PASSAGE": 8, "opening_part: SILL size": .3, "opening_part: NEAR side size": .2, "opening_parts: opening_parts opening_part": 2,
-    "section_not: OPEN sections CLOSE": 1, "section_not: NOT section_not": .5,
+    "cell_not: OPEN cells CLOSE": .2, "cells: cell_ors": .08, "cell_and: cell_ands": .1, "options: option_ors": 1, "option_and: option_ands": 2, "option_ands: option_ands AND option_not": 2,
+    "material_where: WHERE options": 2, "tile_part: stretch_word NAME doc reaches drawn": 2, "drawn: %empty": 12, "drawn: SYMBOL OPEN_BRACE symbol_lines CLOSE_BRACE": 2,
+    "option_not: OPTION OPEN option_items CLOSE": 4, "opening_part: PASSAGE": 8, "opening_part: SILL size": .3, "opening_part: NEAR side size": .2, "opening_parts: opening_parts opening_part": 2,
+    "option_not: OPEN options CLOSE": 1, "option_not: NOT option_not": .5,
     "primary: APART OPEN cells COMMA FROM cells walk_by CLOSE": 4, "primary: TOUCH OPEN cells COMMA cells by_kinds CLOSE": 2,
     "by_kinds: BY or_names": .4, "walk_by: COMMA BY or_names": .3, "outside_side: %empty": 2, "relation: BESIDE": 8, "relation: UNDER": .2,
 })
 FORM_CLAUSES = {
     "storey NAME doc size": 0, "thickness size": 0, "thickness size OPEN_BRACE CLOSE_BRACE": 0, "thickness size OPEN_BRACE layers CLOSE_BRACE": 0,
-    "spine NAME": .3, "section EQUAL shapes": .4, "section NAME EQUAL shapes": .8,
-    "forbid_word sections": 1, "void cells": .3, "no cells": .2, "function NAME doc AT cells": 0, "function NAME doc OUTDOOR AT cells": .3, "opening NAME doc WIDE size HIGH size opening_parts": 0,
+    "spine NAME": .3, "option EQUAL shapes": .4, "option NAME EQUAL shapes": .8,
+    "forbid_word options": 1, "void cells": .3, "no cells": .2, "function NAME doc AT cells": 0, "function NAME doc OUTDOOR AT cells": .3, "opening NAME doc WIDE size HIGH size opening_parts": 0,
     "flight NAME doc WIDE size RISE size DOTS size going turn winders": .2, "face cells relation cells EQUAL kinds": 2.5,
     "face cells OUTSIDE outside_side EQUAL kinds": 1, "tile NAME doc FOR names OPEN_BRACE tile_parts CLOSE_BRACE": .8, "allow_word names": .2,
     "material NAME STRING price FOR names material_where": .8, "way size": .4, "way size FOR names": .2, "headroom size": .2, "guard size": .1, "beam NAME doc WIDE size HIGH size SPAN size": .1,
@@ -89,9 +89,9 @@ def asked_areas(maker, place):
 
 CONTEXTS.update({
     "form_clause: storey NAME doc size": fresh("low", _3="storey"), "form_clause: spine NAME": named(_1="zone"),
-    "form_clause: section EQUAL shapes": lambda maker, place: {0: place.but(want="exact", text=place.scope.fresh(maker.random, "cladding")),
+    "form_clause: option EQUAL shapes": lambda maker, place: {0: place.but(want="exact", text=place.scope.fresh(maker.random, "cladding")),
                                                                2: place.but(want="cladding")},
-    "form_clause: section NAME EQUAL shapes": lambda maker, place: chosen_section(maker, place),
+    "form_clause: option NAME EQUAL shapes": lambda maker, place: chosen_section(maker, place),
     "form_clause: void cells": cells(1, kind="place"), "form_clause: no cells": cells(1, kind="place"),
     "form_clause: function NAME doc AT cells": joined(fresh("K"), cells(4, kind="place")),
     "form_clause: function NAME doc OUTDOOR AT cells": joined(fresh("K"), cells(5, kind="place")),
@@ -154,7 +154,7 @@ NAMED.update({
     "walk": lambda maker, place: maker.random.choice(["open"] + form_of(place).passages * 2),
     "outside": lambda maker, place: kinds_of(maker, place, ["wall"]),
     "function": lambda maker, place: pick(place, maker, form_of(place).functions),
-    "part": lambda maker, place: maker.random.choice(["wall", "party", "partition", "deck", "roof"] + form_of(place).openings + form_of(place).items),
+    "part": lambda maker, place: maker.random.choice(["wall", "party", "partition", "floor", "roof"] + form_of(place).openings + form_of(place).items),
     "unit": lambda maker, place: maker.random.choice(["each", "m2", "m3"] if place.metric else ["each", "sf", "cf"]),
     "turn": lambda maker, place: maker.random.choice(["half", "quarter"]),
     "symbol": lambda maker, place: maker.random.choice(["bed", "table", "wc"]),
@@ -217,25 +217,25 @@ def argument(maker, place, text):
     return maker.node("argument: NAME", maker.word("NAME", text))
 
 
-def section_item(maker, depth, place):
+def option_item(maker, depth, place):
     """A value of a choice that the form has."""
-    sections = form_of(place).sections
-    if not sections:
+    options = form_of(place).options
+    if not options:
         return None
-    choice, values = maker.random.choice(sections)
+    choice, values = maker.random.choice(options)
     some = maker.random.sample(values, min(len(values), maker.random.choice([1, 1, 1, 2])))
-    nodes = [section_alternative(maker, choice, value) for value in some]
-    made = maker.node("section_item: section_alternatives", listed(maker.grammar, "section_alternatives", nodes))
+    nodes = [option_alternative(maker, choice, value) for value in some]
+    made = maker.node("option_item: option_alternatives", listed(maker.grammar, "option_alternatives", nodes))
     return Node(made.symbol, made.production, made.children, context=place)
 
 
-def section_alternative(maker, choice, value):
+def option_alternative(maker, choice, value):
     token = "NUMBER" if value.isdigit() else "NAME"
-    node = maker.node("section_alternative: shape", maker.node("shape: " + token, maker.word(token, value)))
+    node = maker.node("option_alternative: shape", maker.node("shape: " + token, maker.word(token, value)))
     if maker.chance(.05):
-        node = maker.node("section_alternative: NOT section_alternative", node)
+        node = maker.node("option_alternative: NOT option_alternative", node)
     for word in reversed(choice):
-        node = maker.node("section_alternative: NAME section_alternative", maker.word("NAME", word), node)
+        node = maker.node("option_alternative: NAME option_alternative", maker.word("NAME", word), node)
     return node
 
 
@@ -316,17 +316,17 @@ def symbol_lines(maker, depth, place):
 def thickness(maker, depth, place):
     """Each of the four once: the next that the form being made lacks."""
     done = form_of(place).__dict__.setdefault("thicknesses", [])
-    left = [w for w in ("WALL", "PARTITION", "DECK", "ROOF") if w not in done]
+    left = [w for w in ("WALL", "PARTITION", "FLOOR", "ROOF") if w not in done]
     if place.form != "being made" or not left:
         return None
     done.append(left[0])
     return maker.node("thickness: " + left[0])
 
 
-plans.HOOKS.update({"cells": plain_cells, "shapes": shapes, "section_item": section_item, "form_clauses": form_clauses, "kinds": kinds, "thickness": thickness, "line_end": line_end, "symbol_lines": symbol_lines})
-AVAILABLE["primary: SECTION OPEN section_items CLOSE"] = lambda place: place.form and form_of(place).sections
+plans.HOOKS.update({"cells": plain_cells, "shapes": shapes, "option_item": option_item, "form_clauses": form_clauses, "kinds": kinds, "thickness": thickness, "line_end": line_end, "symbol_lines": symbol_lines})
+AVAILABLE["primary: OPTION OPEN option_items CLOSE"] = lambda place: place.form and form_of(place).options
 AVAILABLE["size: NUMBER"] = lambda place: place.want in ("short", "sill")                    # 0, where a size may be none
-AVAILABLE["form_clause: forbid_word sections"] = AVAILABLE["material_where: WHERE sections"] = lambda place: form_of(place).sections
+AVAILABLE["form_clause: forbid_word options"] = AVAILABLE["material_where: WHERE options"] = lambda place: form_of(place).options
 
 
 # ---- a file

@@ -781,10 +781,10 @@ WALKED = ["primary: walk OPEN cells COMMA TO walk_end " + more + "CLOSE" for mor
 class Plans(Notation):
     start = "items"
     indents = {"item": 0, "clause": 2, "form_clause": 2, "field": 2, "forbid": 2, "number_item": 2, "any_case": 2, "tile_part": 4, "CLOSE_BRACE": 0}
-    depths = {"condition": 3, "part": 1, "cells": 3, "sections": 4, "section_items": 1, "by_kinds": 1, "material_where": 3, "opening_parts": 3,
+    depths = {"condition": 3, "part": 1, "cells": 3, "options": 4, "option_items": 1, "by_kinds": 1, "material_where": 3, "opening_parts": 3,
               "tile_parts": 5, "reaches": 3, "cases": 4, "trays": 2, "pattern": 2, "specifier": 1}
     remade = ("primary", "not", "expression", "condition", "tray_sum", "additive", "spec_item", "specifier", "pattern", "call_args", "clause", "any_case",
-              "range", "cells", "sections", "section_items", "kinds", "tile_part", "number_item", "forbid", "number_case", "doc", "role", "let")
+              "range", "cells", "options", "option_items", "kinds", "tile_part", "number_item", "forbid", "number_case", "doc", "role", "let")
     hooks = HOOKS
     never = WALKED
 
@@ -858,7 +858,7 @@ AVAILABLE = {
 for expectations in ("plan doc", "plan STRING BY clause_names", "plan BY clause_names doc"):
     AVAILABLE["case: expectations " + expectations] = lambda place: place.test != "measure"
 HOUSE_LEAVES = ["primary: " + leaf for leaf in (
-    "CELL OPEN specifier CLOSE", "ROOM OPEN specifier CLOSE", "SECTION OPEN section_items CLOSE", "TOUCH OPEN cells COMMA cells by_kinds CLOSE",
+    "CELL OPEN specifier CLOSE", "ROOM OPEN specifier CLOSE", "OPTION OPEN option_items CLOSE", "TOUCH OPEN cells COMMA cells by_kinds CLOSE",
     "APART OPEN cells COMMA FROM cells walk_by CLOSE", "APART OPEN cells COMMA FROM cells COMMA THROUGH cells walk_by CLOSE",
     "APART OPEN cells COMMA FROM cells COMMA BY or_names COMMA THROUGH cells CLOSE")]
 WALKS = ["primary: APART OPEN cells COMMA FROM cells walk_by CLOSE"] * 3     # what is hardest to count: asked more often

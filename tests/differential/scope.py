@@ -46,7 +46,7 @@ class Form:
     openings: list = default(default_factory=list)
     passages: list = default(default_factory=list)   # those of the openings through which one walks
     flights: list = default(default_factory=list)
-    sections: list = default(default_factory=list)   # (words of a choice, values)
+    options: list = default(default_factory=list)   # (words of a choice, values)
     items: list = default(default_factory=list)
 
 
@@ -175,9 +175,9 @@ def form_clause(made, clause):
         lists[first].append(named(clause))
     if first == "opening" and "passage" in words(clause):
         made.passages.append(named(clause))
-    elif first == "section":
+    elif first in ("option", "section"):
         choice = words(clause)[1:words(clause).index("=")]
-        made.sections.append((choice, [words(s)[0] for s in find_all(clause, "shape")]))
+        made.options.append((choice, [words(s)[0] for s in find_all(clause, "shape")]))
     elif first == "tile":
         made.items += [p.child("NAME").text for p in find_all(clause, "tile_part") if words(p)[0] == "item"]
 

@@ -15,7 +15,7 @@ static const struct {
      "schema s { w = 1m | 2m  lid = flag }\nrule pair = neighbour(tray(lid), tray(lid))\nmeasure m = sum(w)\n"
      "library l using s { trays 1..3 prune pair require sum(w) <= 5m }\nlibrary k using s { trays 2 }\n"},
     {"houses.plan", "schema s { w = 4m  zone z = room(4m) | none }\nlibrary l using s { trays 1..2 }\n"
-                    "form f of s {\n  storey low 2.7m\n  wall 250mm\n  partition 200mm\n  deck 200mm\n  roof 250mm\n"
+                    "form f of s {\n  storey low 2.7m\n  wall 250mm\n  partition 200mm\n  floor 200mm\n  roof 250mm\n"
                     "  function hall at cell(any)\n}\nmeasure tall using f = quantity(cell(any))\n"
                     "library h from l in f { require quantity(cell(any)) >= 1 }\n"},
     {"parts.kit",

@@ -96,7 +96,7 @@ static void put_simple(drawn_house *d)
         ONE_OF(d, ", a < 200sf)", ", a >= 150sf)", ", a > 300sf)");
         return;
     case 8:
-        ONE_OF(d, "section(body storeys 1)", "section(cladding board)", "section(body roof gable)");
+        ONE_OF(d, "option(body storeys 1)", "option(cladding board)", "option(body roof gable)");
         return;
     default:
         ONE_OF(d, "tray(8')", "tray(bay open)", "neighbour(tray(8'), tray(10'))", "neighbour(beginning, tray(10'))");
@@ -230,20 +230,20 @@ static void put_expression(drawn_house *d, int depth)
 static void put_roofs(drawn_house *d)
 {
     ONE_OF(d,
-           "  section body roof = gable(9:12, eaves 1'6\", open)\n  section bay roof = shed(front, 3:12, eaves 1')\n",
-           "  section body roof = vault(3', across) | gable(6:12, across)\n",
-           "  section body roof = shed(back, 4:12, eaves 2') | flat\n  section bay roof = vault(1')\n",
-           "  section body roof = gable(7:12, across, open)\n  section bay roof = gable(12:12)\n");
+           "  option body roof = gable(9:12, eaves 1'6\", open)\n  option bay roof = shed(front, 3:12, eaves 1')\n",
+           "  option body roof = vault(3', across) | gable(6:12, across)\n",
+           "  option body roof = shed(back, 4:12, eaves 2') | flat\n  option bay roof = vault(1')\n",
+           "  option body roof = gable(7:12, across, open)\n  option bay roof = gable(12:12)\n");
 }
 
 static void put_materials(drawn_house *d)
 {
     put(d, "  material brick \"#888888\" price 12.35 per ");
     ONE_OF(d, "sf", "m2", "cf", "each");
-    put(d, " for wall, post where section(cladding board)\n  material shingles \"#888888\" price 9.10 per ");
+    put(d, " for wall, post where option(cladding board)\n  material shingles \"#888888\" price 9.10 per ");
     ONE_OF(d, "sf", "m3", "cf");
     put(d, " for wall, party\n  material planks \"#888888\" price 41.7 per ");
-    ONE_OF(d, "sf for partition, deck\n", "cf for partition\n", "each for deck, partition\n", "m2 for deck, post\n");
+    ONE_OF(d, "sf for partition, floor\n", "cf for partition\n", "each for floor, partition\n", "m2 for floor, post\n");
     put(d, "  material slates \"#888888\" price 17 per ");
     ONE_OF(d, "sf", "sf", "m3", "each");
     put(d, " for roof\n");
@@ -252,20 +252,20 @@ static void put_materials(drawn_house *d)
     if (strstr(d->text, "item cot"))
         ONE_OF(d, "  material pine \"#888888\" price 55.5 per sf for cot\n",
                "  material pine \"#888888\" price 55.5 per each for cot\n",
-               "  material pine \"#888888\" price 7 per cf for cot where section(cladding board)\n", "");
+               "  material pine \"#888888\" price 7 per cf for cot where option(cladding board)\n", "");
 }
 
 static void put_form(drawn_house *d)
 {
-    put(d, "form huts of hut {\n  storey ground 9'\n  storey loft 8'\n  wall 8\"\n  partition 4\"\n  deck 10\"\n  roof "
+    put(d, "form huts of hut {\n  storey ground 9'\n  storey loft 8'\n  wall 8\"\n  partition 4\"\n  floor 10\"\n  roof "
            "8\"\n");
-    ONE_OF(d, "  section body storeys = 1 | 2\n", "  section body storeys = 2 | 1\n",
-           "  section bay storeys = 1\n  section body storeys = 1 | 2\n");
+    ONE_OF(d, "  option body storeys = 1 | 2\n", "  option body storeys = 2 | 1\n",
+           "  option bay storeys = 1\n  option body storeys = 1 | 2\n");
     if (d->priced)
         put_roofs(d);
     else
-        put(d, "  section body roof = gable(9:12) | vault(3')\n");
-    put(d, "  section cladding = shingle | board\n");
+        put(d, "  option body roof = gable(9:12) | vault(3')\n");
+    put(d, "  option cladding = shingle | board\n");
     ONE_OF(d, "", "  void cell(loft, 10')\n", "  void cell(body 12', loft)\n", "  no cell(bay, loft)\n");
     put(d, "  function living at cell(body, ground)\n");
     put(d, d->places ? "  function bed at cell(any)\n" : "  function bed at cell(body)\n");
@@ -329,12 +329,12 @@ static void put_measures(drawn_house *d)
 static void put_small(drawn_house *d)
 {
     if (d->places) {
-        put(d, "  require section(cladding board), section(body roof gable)\n"
+        put(d, "  require option(cladding board), option(body roof gable)\n"
                "  require quantity(cell(any), n < 6) or (quantity(cell(any), n = 6) and not cell(living or loft))\n");
         put(d, "  prune cell(stair), quantity(cell(bed), n > 5)\n");
         return;
     }
-    put(d, "  require quantity(cell(any), n < 4), section(cladding board)\n"
+    put(d, "  require quantity(cell(any), n < 4), option(cladding board)\n"
            "  prune cell(stair), quantity(cell(bed), n > 1)\n");
 }
 
@@ -345,7 +345,7 @@ static void put_comparisons(drawn_house *d)
            "  require third > 20 or cell(bed)\n", "  prune 2 * second > 100sf + 4 * sum(width) * 1'\n", "");
     if (d->priced)
         ONE_OF(d, "  require fifth <= 5000\n", "  prune fifth in -4000..9000 as middle\n",
-               "  require not fifth > 40 * second / 1sf\n", "  prune section(body storeys 1) implies fifth < 7000\n",
+               "  require not fifth > 40 * second / 1sf\n", "  prune option(body storeys 1) implies fifth < 7000\n",
                "  require fifth + 1000 * quantity(tray(10')) in 1000..12000 or cell(seat)\n",
                "  require fifth >= 4000 and quantity(cell(bed)) = 1\n");
     else

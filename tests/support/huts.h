@@ -6,8 +6,8 @@
 #define TEST_HUTS                                                                                                      \
     "schema hut { width role length = 8' | 10' zone body role band = room(10') }\n"                                    \
     "form huts \"small huts\" of hut {\n"                                                                              \
-    "  storey ground 9' wall 6\" partition 4\" deck 10\" roof 8\"\n"                                                   \
-    "  section body roof = gable(9:12) | vault(3')\n"                                                                  \
+    "  storey ground 9' wall 6\" partition 4\" floor 10\" roof 8\"\n"                                                   \
+    "  option body roof = gable(9:12) | vault(3')\n"                                                                  \
     "  function bed at cell(body)\n"                                                                                   \
     "  opening window wide 3' high 4' sill 2'8\"\n"                                                                    \
     "  opening door wide 2'8\" high 6'8\" clear 2' passage\n"                                                          \

@@ -173,7 +173,7 @@ static void set_spine(tn_check *check, tn_checked_form *form, const tn_ast_form_
 
 enum { OF_WALL, OF_OUTSIDE, OF_PARTY, OF_PARTITION, OF_DECK, OF_ROOF, OF_COUNT };
 
-static const char *const of_words[OF_COUNT] = {"wall", "wall outside", "wall party", "partition", "deck", "roof"};
+static const char *const of_words[OF_COUNT] = {"wall", "wall outside", "wall party", "partition", "floor", "roof"};
 
 const char *tn_form_thickness_words(const tn_ast_form_clause *ast)
 {
@@ -334,7 +334,7 @@ static void each(tn_check *check, tn_checked_form *form, tn_form_part part)
 /* The spine is said at most once; some parts a form cannot be without. */
 static void check_once(tn_check *check, tn_checked_form *form)
 {
-    static const char *const words[] = {"storey", "spine", "wall", "partition", "deck", "roof"};
+    static const char *const words[] = {"storey", "spine", "wall", "partition", "floor", "roof"};
     const tn_ast_form_clause *first[TN_PART_ALLOW + 1] = {NULL};
     for (TN_EACH(const tn_ast_form_clause, clause, form->ast->clauses)) {
         if (clause->part == TN_PART_SPINE && first[clause->part])
@@ -360,8 +360,8 @@ static void check_heights(tn_check *check, const tn_checked_form *form)
         if (storey->height < 0 || storey->height > form->thickness[2])
             continue;
         tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_THICKNESS, storey->ast->length->node.span,
-                                     "storey `%s` is not higher than the deck above it", storey->ast->name->text);
-        tn_help(check->diagnostics, d, "a storey is measured from floor to floor, the `deck` included");
+                                     "storey `%s` is not higher than the floor above it is thick", storey->ast->name->text);
+        tn_help(check->diagnostics, d, "a storey is measured from floor to floor, the `floor` included");
     }
 }
 

@@ -88,7 +88,7 @@ void tn_check_opening(tn_check *check, tn_checked_form *form, const tn_ast_form_
         tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_OPENING, ast->high->node.span,
                                      "opening `%s` is higher than every storey", ast->name->text);
         tn_help(check->diagnostics, d,
-                "`sill` and `high` added must be less than the height between a floor and the deck above it");
+                "`sill` and `high` added must be less than the height between a floor and the ceiling above it");
     }
     form->openings[form->opening_count++] = opening;
 }

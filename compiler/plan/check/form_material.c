@@ -98,10 +98,21 @@ static uint32_t count_boxes(const tn_checked_form *form)
     return boxes;
 }
 
+/* Floors were called decks: if a layer, an opening or an item of the form is called `floor`, that is what the name means,
+ * as it did. */
+static bool has_own_floor(const tn_checked_form *form)
+{
+    const char *name = tn_names_OF[TN_OF_DECK];
+    return tn_form_layer_named(form, name) != TN_NONE || tn_form_opening_named(form, name) != TN_NONE ||
+           tn_form_item_named(form, name) != TN_NONE || tn_form_beam_named(form, name) != TN_NONE;
+}
+
 uint32_t tn_form_part_named(const tn_checked_form *form, const char *name)
 {
+    if (strcmp(name, TN_FLOOR_BEFORE) == 0)
+        return TN_OF_DECK;
     for (uint32_t i = 0; i < TN_OF_COUNT; i++)
-        if (strcmp(tn_names_OF[i], name) == 0)
+        if (strcmp(tn_names_OF[i], name) == 0 && !(i == TN_OF_DECK && has_own_floor(form)))
             return i;
     uint32_t layer = tn_form_layer_named(form, name), openings = TN_OF_COUNT + form->layer_count;
     if (layer != TN_NONE)
@@ -226,7 +237,8 @@ void tn_check_part_name(tn_check *check, const tn_checked_form *form, const tn_a
                        : tn_form_item_named(form, name->text) != TN_NONE  ? "an item"
                                                                           : NULL;
     for (uint32_t i = 0; i < TN_OF_COUNT; i++)
-        what = strcmp(tn_names_OF[i], name->text) == 0 ? "a part of every form" : what;
+        what = strcmp(i == TN_OF_DECK ? TN_FLOOR_BEFORE : tn_names_OF[i], name->text) == 0 ? "a part of every form"
+                                                                                           : what;
     if (strcmp(name->text, "guard") == 0)
         what = "what keeps people from falling";
     if (!what) {
@@ -383,7 +395,7 @@ static bool leaves_room(tn_check *check, const tn_checked_form *form, const tn_c
     tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_BEAM, beam->ast->high->node.span,
                                  "beam `%.80s` is as high as the rooms of storey `%.80s`", beam->ast->name->text,
                                  lowest->ast->name->text);
-    tn_help(check->diagnostics, d, "write less than %s, the height from its floor to the deck above",
+    tn_help(check->diagnostics, d, "write less than %s, the height from its floor to the ceiling",
             shown(beam->ast, lowest->height - form->thickness[2], high));
     return false;
 }

@@ -1,4 +1,4 @@
-/* Reads the choices that a form has for a whole house, their values, and what is asked of them (`section(...)`). */
+/* Reads the choices that a form has for a whole house, their values, and what is asked of them (`option(...)`). */
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -168,10 +168,10 @@ static bool read_storeys(tn_check *check, const tn_checked_form *form, const tn_
     int64_t count = shape->word->value;
     if (shape->word->kind != TN_WORD_NUMBER || shape->arguments.count > 0)
         return bad_shape(check, shape->node.span, "this is not a number of storeys",
-                         "write `section ZONE storeys = 1 | 2`");
+                         "write `option ZONE storeys = 1 | 2`");
     if (count < 1 || (count > form->storey_count && !check->skipped)) {
         tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_SHAPE, shape->node.span,
-                                     "a section of this form cannot have %lld storeys", (long long)count);
+                                     "a house of this form cannot have %lld storeys", (long long)count);
         if (form->storey_count == 1)
             tn_help(check->diagnostics, d, "it has one: declare another `storey`, or write 1");
         else
@@ -291,7 +291,7 @@ static bool choice_is_new(tn_check *check, const tn_checked_form *form, const tn
         if (strcmp(form->choices[i].name, choice->name) != 0)
             continue;
         tn_diagnostic *d = tn_report(check->diagnostics, E_PART_TWICE, choice->ast->node.span,
-                                     "`section %s` is there twice", choice->name);
+                                     "`option %s` is there twice", choice->name);
         tn_note(check->diagnostics, d, &form->choices[i].ast->node.span, "the first time is here");
         tn_help(check->diagnostics, d, "put all values into one line, joined by `|`");
         return false;
@@ -355,7 +355,7 @@ void tn_check_choice(tn_check *check, tn_checked_form *form, const tn_ast_form_c
     form->choices[form->choice_count++] = choice;
 }
 
-/* ---- section(...) */
+/* ---- option(...) */
 
 /* The choice that words name: `machine storeys 2`, `cladding board`; words before the value. */
 static const tn_checked_choice *find_choice(const tn_checked_form *form, const tn_ast_word *first,
@@ -478,7 +478,7 @@ static bool read_alternative(tn_check *check, const tn_checked_form *form, const
         else if (word->kind != TN_WORD_NAME || count == 2)
             return help_choice(
                 check, form,
-                tn_report(check->diagnostics, E_BAD_SHAPE, word->node.span, "a section has no such choice"));
+                tn_report(check->diagnostics, E_BAD_SHAPE, word->node.span, "the form has no such option"));
         else
             words[count++] = word;
     }

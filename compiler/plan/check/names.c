@@ -412,7 +412,7 @@ bool tn_help_height(tn_check *check, tn_diagnostic *d, const char *word)
     const tn_checked_choice *choice = choice_of_storeys(form);
     if (choice)
         tn_help(check->diagnostics, d,
-                "rules do not measure how high a house is: ask how many storeys it has, `section(%s %s)`", choice->name,
+                "rules do not measure how high a house is: ask how many storeys it has, `option(%s %s)`", choice->name,
                 choice->shapes[0].spelling);
     else
         tn_help(check->diagnostics, d,

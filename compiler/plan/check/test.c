@@ -515,7 +515,7 @@ static bool not_a_house(tn_check *check, const tn_ast_case *ast, const tn_checke
         tn_note(check->diagnostics, d, &choice->ast->node.span, "the plan does not say which `%s` the house has",
                 choice->name);
     tn_help(check->diagnostics, d,
-            "write the line of a house: `[plan ; section ; functions ; faces]`; parts at the end may be left out if "
+            "write the line of a house: `[plan ; options ; functions ; faces]`; parts at the end may be left out if "
             "they leave no choice");
     return false;
 }

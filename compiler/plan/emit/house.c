@@ -36,7 +36,7 @@ void tn_emit_ask_needs(tn_emit *emit, tn_ast_expr *expr)
     tn_function_kind kind = expr->kind == TN_EXPR_ROOM      ? TN_FUNCTION_ROOM
                             : expr->kind == TN_EXPR_SECTION ? TN_FUNCTION_SECTION
                                                             : TN_FUNCTION_CELL;
-    const char *name = kind == TN_FUNCTION_ROOM ? "room" : kind == TN_FUNCTION_SECTION ? "section" : "cell";
+    const char *name = kind == TN_FUNCTION_ROOM ? "room" : kind == TN_FUNCTION_SECTION ? "option" : "cell";
     ask->function = tn_emit_decision(emit, ask->form, &ask->first, name, kind) + 1;
 }
 

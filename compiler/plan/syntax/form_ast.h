@@ -126,10 +126,10 @@ void *tn_ast_reach_new(tn_parse *parse, tn_span span, tn_ast_reach reach);
 void *tn_ast_symbol_line_new(tn_parse *parse, tn_span span, tn_ast_symbol_line from, tn_ast_symbol_line to);
 void *tn_ast_tile_part_new(tn_parse *parse, tn_span span, tn_ast_tile_part part);
 
-/* An alternative of `section(...)` with one more word before it; its last node is a tn_ast_shape. */
+/* An alternative of `option(...)` with one more word before it; its last node is a tn_ast_shape. */
 void *tn_ast_alternative_word(tn_parse *parse, tn_span span, tn_ast_word *word, void *alternative);
 
-/* `cell(...)`, `room(...)` or `section(...)`: items are of tn_ast_item, or of tn_ast_shape alternatives. */
+/* `cell(...)`, `room(...)` or `option(...)`: items are of tn_ast_item, or of tn_ast_shape alternatives. */
 tn_ast_expr *tn_ast_house_leaf(tn_parse *parse, tn_expr_kind kind, tn_span span, tn_ast_list items);
 
 /* `touch` or `apart`; kinds: tn_ast_word. */

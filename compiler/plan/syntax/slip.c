@@ -88,7 +88,7 @@ static const tn_slip slips[] = {
      "20m`",
      NULL},
     {TN_SLIP_LIBRARY, "storeys|stories|storey|floors|levels",
-     "how many storeys a house has is asked of its section: `require section(ZONE storeys 2)` in a library of houses",
+     "how many storeys a house has is asked of its options: `require option(ZONE storeys 2)` in a library of houses",
      NULL},
     {TN_SLIP_LIBRARY, "size|count|number|rooms|bays", "how many trays a plan has is written `trays 4..9`", NULL},
     {TN_SLIP_TEST, "pass|passes|accept|ok|yes|true|good|valid|hold|holds",

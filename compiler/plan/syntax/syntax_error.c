@@ -23,9 +23,11 @@ static const struct {
     {"spine", "spine body", NULL},
     {"wall", "wall 8\"", "wall 200mm"},
     {"partition", "partition 4\"", "partition 100mm"},
-    {"deck", "deck 10\"", "deck 250mm"},
+    {"deck", "floor 10\"", "floor 250mm"},
+    {"floor", "floor 10\"", "floor 250mm"},
     {"roof", "roof 8\"", "roof 200mm"},
-    {"section", "section body roof = flat | gable(9:12)", NULL},
+    {"option", "option body roof = flat | gable(9:12)", NULL},
+    {"section", "option body roof = flat | gable(9:12)", NULL},
     {"void", "void cell(body, loft)", NULL},
     {"no", "no cell(body, loft)", NULL},
     {"function", "function kitchen at cell(body, ground)", NULL},
@@ -145,7 +147,7 @@ static const struct {
      TN_AT(ITEM),
      TN_AS_KEYWORDS,
      {"an expression", "an open plan", "a plan", "the value of a param", "the end of the file"}},
-    {"a line of a form (`storey`, `section`, `function`, `face`, `tile` ...)",
+    {"a line of a form (`storey`, `option`, `function`, `face`, `tile` ...)",
      {"`storey`", "`spine`"},
      TN_AT(FORM),
      TN_AS_KEYWORDS,
@@ -367,7 +369,7 @@ static bool declares_rule(const tn_parse *parse, tn_span name)
     return false;
 }
 
-/* `romo(hall, by door)`, `sectino(body roof flat)`, `maxx(beds of any)`: what stands in the parentheses can stand in
+/* `romo(hall, by door)`, `optino(body roof flat)`, `maxx(beds of any)`: what stands in the parentheses can stand in
  * none of a rule's. */
 static bool report_misspelled_call(tn_parse *parse, const tn_syntax_found *found)
 {

@@ -192,14 +192,15 @@ static bool comes_after_next(const tn_parse *parse, const char *word)
 /* Lines of forms that are neither of these. */
 static const char *form_fix(const tn_parse *parse, const char *found, const tn_expected *e)
 {
-    if (tn_expects(e, "`storey`") && (stands_here(parse, "floor") || stands_here(parse, "level")))
+    bool named_floor = strcmp(found, "a name") == 0 && line_begins(parse, "floor");
+    if (named_floor || (tn_expects(e, "`storey`") && stands_here(parse, "level")))
         return "a storey and its height are written `storey ground 3m`";
     if (tn_expects(e, "`storey`") && stands_here(parse, "room"))
         return "what cells are for is written `function living at cell(body)`";
     if (strcmp(found, "a length") == 0 && comes_after_next(parse, "spine"))
         return "a zone follows `spine`: `spine body`";
-    if (strcmp(found, "`..`") == 0 && line_begins(parse, "section"))
-        return "each number of storeys is written, with `|` between: `section body storeys = 1 | 2`";
+    if (strcmp(found, "`..`") == 0 && (line_begins(parse, "option") || line_begins(parse, "section")))
+        return "each number of storeys is written, with `|` between: `option body storeys = 1 | 2`";
     if (strcmp(found, "`|`") == 0 && line_begins(parse, "against"))
         return "kinds of faces are joined by `or` here: `against wall or window`";
     if (line_begins(parse, "function") && (stands_here(parse, "min") || stands_here(parse, "area")))
@@ -280,7 +281,7 @@ static const char *house_fix(const tn_parse *parse, const char *found, const tn_
     if ((fix = pair_fix(parse, e)))
         return fix;
     if (strcmp(found, "`cell`") == 0 && line_begins(parse, "forbid"))
-        return "`forbid section(...)` is about choices of the form; cells that are not there are said by `no "
+        return "`forbid option(...)` is about choices of the form; cells that are not there are said by `no "
                "cell(...)`";
     if ((fix = library_fix(parse, found, e)))
         return fix;

@@ -75,8 +75,8 @@ test('every word of the language that the lexer knows has a colour', async () =>
 
 test('words of forms and of rooms that the lexer takes for names have a colour', async () => {
     const found = new Map(tokens(await loadGrammar(), `form f of s {
-  section hall storeys = 1 | 2
-  section hall roof = gable(9:12, eaves 2') | shed(back, 4:12) | vault(4')
+  option hall storeys = 1 | 2
+  option hall roof = gable(9:12, eaves 2') | shed(back, 4:12) | vault(4')
   flight steep wide 3' rise 6"..8" going 10" turn half
   flight corner wide 3' rise 6"..8" going 10" turn quarter
 }

@@ -113,7 +113,7 @@ static tn_status spend(tn_house_listing *v, uint64_t steps, tn_error *error)
             tn_text(v->form->module, clause->name));
     else
         tn_error_help(error,
-                      "leave fewer choices: require more of cells and sections (--where), or take a shorter plan");
+                      "leave fewer choices: require more of cells and options (--where), or take a shorter plan");
     return TN_LIMIT;
 }
 

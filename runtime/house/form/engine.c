@@ -325,7 +325,7 @@ static tn_status check_form(const tn_checker *checker, uint32_t index)
         return tn_refuse(checker, "form %u has guards without ways", index);
     for (uint32_t i = 0; i < form->storey_count; i++)
         if (module->STOREY_records[form->storey_first + i].height <= form->deck)
-            return tn_refuse(checker, "storey %u is not higher than its deck", form->storey_first + i);
+            return tn_refuse(checker, "storey %u is not higher than its floor is thick", form->storey_first + i);
     for (uint32_t i = 0; status == TN_OK && i < form->choice_count; i++)
         status = check_choice(checker, form, form->choice_first + i);
     if (status == TN_OK)

@@ -708,11 +708,11 @@ static tn_status check_openings(const tn_frontier *frontier, tn_error *error)
             return refuse(frontier, "an opening can leave nothing of a wall, and walls have a price each",
                           "give the price of walls per area, or per volume", error);
         if (opening->turn != TN_TURN_NONE && is_built_priced(form, TN_OF_DECK, BY_NUMBER))
-            return refuse(frontier, "flights cut decks in pieces, and these have a price each",
-                          "give the price of decks per area, or per volume", error);
+            return refuse(frontier, "flights cut floors in pieces, and these have a price each",
+                          "give the price of floors per area, or per volume", error);
         if (opening->turn == TN_TURN_QUARTER && tn_form_asks_ways(form) && is_built_priced(form, TN_OF_DECK, BY_ANY))
             return refuse(frontier, "how large the hole above a flight that turns a quarter is depends on its place",
-                          "give decks no price, or ask nothing about costs", error);
+                          "give floors no price, or ask nothing about costs", error);
         if (opening->turn == TN_TURN_QUARTER && is_priced(form, tn_form_openings_part(form) + i, BY_VOLUME))
             return refuse(frontier, "a flight that turns a quarter has a price per volume",
                           "give its price per area, or for each", error);
@@ -738,10 +738,10 @@ tn_status tn_frontier_prices_check(const tn_frontier *frontier, const bool *tray
     tn_roofs roofs = roofs_of(frontier);
     if (roofs.hip && are_roofs_priced(frontier->form))
         return refuse(frontier, "a section has a hip, whose ends are cut off as far as the whole row says",
-                      "keep sections without: `prune section(...)`", error);
+                      "keep houses without: `prune option(...)`", error);
     if (frontier->prices.across && roofs.eaves > 0)
         return refuse(frontier, "a section has eaves, and a roof that goes `across`",
-                      "keep sections that have only one of both: `prune section(...)`", error);
+                      "keep houses that have only one of both: `prune option(...)`", error);
     tn_status status = check_widths(frontier, &roofs, trays, error);
     return status == TN_OK ? check_openings(frontier, error) : status;
 }

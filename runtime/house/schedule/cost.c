@@ -80,9 +80,24 @@ uint32_t tn_solid_made_part(const tn_house *house, tn_solid_kind kind, uint32_t 
     }
 }
 
+/* Is a part of the author's called as floors are? Spaces to keep are none. */
+static bool has_own_floor(const tn_house_form *form)
+{
+    uint32_t boxes = tn_form_openings_part(form) + form->record->opening_count, guard = tn_form_guard_part(form);
+    for (uint32_t part = TN_OF_COUNT; part < tn_form_parts(form); part++) {
+        bool is_box = part >= boxes && part < guard;
+        bool is_kept = is_box && form->module->TILE_BOX_records[first_box(form) + part - boxes].flags & TN_TILE_KEEP;
+        if (!is_kept && strcmp(tn_form_part_text(form, part), tn_names_OF[TN_OF_DECK]) == 0)
+            return true;
+    }
+    return false;
+}
+
 const char *tn_form_part_text(const tn_house_form *form, uint32_t part)
 {
     const tn_module *module = form->module;
+    if (part == TN_OF_DECK && has_own_floor(form))
+        return TN_FLOOR_BEFORE;
     if (part < TN_OF_COUNT)
         return tn_names_OF[part];
     if (part == tn_form_guard_part(form))

@@ -15,7 +15,7 @@
 #include <cmocka.h>
 
 static const char text[] = TEST_HUTS "library all \"every hut\" from rows in huts { }\n"
-                                     "library round from rows in huts { require section(body roof vault) }\n"
+                                     "library round from rows in huts { require option(body roof vault) }\n"
                                      "measure long = sum(width)\n"
                                      "measure price = sum(cost)\n"
                                      "measure beds = quantity(cell(bed))\n";

@@ -58,7 +58,7 @@ ASKING(slice_solid, "pair.solid", "solid pair {\n  box low from (0, 0, 0) to (2,
 
 ASKING(house, "hut.plan",
        "schema row { bay = 4m  zone rooms = room(4m) }\n"
-       "form cells of row {\n  storey ground 3m\n  wall 300mm\n  partition 100mm\n  deck 250mm\n  roof 200mm\n"
+       "form cells of row {\n  storey ground 3m\n  wall 300mm\n  partition 100mm\n  floor 250mm\n  roof 200mm\n"
        "  function bedroom at cell(rooms)\n  face cell(any) outside = wall\n}\n",
        "house",
        "{\"house\": \"4m room:4m\", \"files\": [\"json\", \"csv\", \"parts.csv\", \"obj\", \"mtl\", \"glb\", \"ifc\", \"dxf\"]}",

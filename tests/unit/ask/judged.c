@@ -12,14 +12,14 @@
 
 static const char text[] = "schema hut { width role length = 8' zone body role band = room(10') }\n"
                            "form huts of hut {\n"
-                           "  storey ground 9' wall 6\" partition 4\" deck 10\" roof 8\"\n"
-                           "  section body roof = gable(9:12) | vault(3')\n"
+                           "  storey ground 9' wall 6\" partition 4\" floor 10\" roof 8\"\n"
+                           "  option body roof = gable(9:12) | vault(3')\n"
                            "  function bed at cell(body)\n"
                            "  face cell(bed) beside cell(bed) = open\n"
                            "}\n"
                            "library rows using hut { trays 1 }\n"
                            "library all from rows in huts { }\n"
-                           "library some from rows in huts { prune section(body roof vault) as round }\n";
+                           "library some from rows in huts { prune option(body roof vault) as round }\n";
 
 /* Both libraries as if counting had taken one for the other: the houses found are those of `all`. */
 static void test_contradiction(void **state)

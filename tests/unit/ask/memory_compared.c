@@ -15,8 +15,8 @@
 #define SCHEMA(LENGTHS) "schema hut { width role length = " LENGTHS " zone body role band = room(10') }\n"
 #define FORM(FACES)                                                                                                    \
     "form huts of hut {\n"                                                                                             \
-    "  storey ground 9' wall 6\" partition 4\" deck 10\" roof 8\"\n"                                                   \
-    "  section body roof = gable(9:12) | vault(3')\n"                                                                  \
+    "  storey ground 9' wall 6\" partition 4\" floor 10\" roof 8\"\n"                                                   \
+    "  option body roof = gable(9:12) | vault(3')\n"                                                                  \
     "  function bed at cell(body)\n"                                                                                   \
     "  opening window wide 3' high 4' sill 2'8\"\n"                                                                    \
     "  opening door wide 2'8\" high 6'8\" clear 2' passage\n"                                                          \
@@ -26,7 +26,7 @@
 #define PLANS(CLAUSES) "library rows using hut { trays 1..2 " CLAUSES "}\n"
 /* The form of a test has two libraries. */
 #define HOUSES(CLAUSES) "library all from rows in huts { " CLAUSES "}\nlibrary same from rows in huts { }\n"
-#define VAULT "prune section(body roof vault) as round "
+#define VAULT "prune option(body roof vault) as round "
 #define DARK "prune room(bed, not by window) as dark "
 
 static const struct {

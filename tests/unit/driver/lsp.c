@@ -730,7 +730,7 @@ static const char related[] =
 
 static const char housed[] = "schema s { w role length = 8' | 12'  zone z role band = room(9') role void }\n"
                              "form f of s {\n"
-                             "  storey low 9'  spine z  wall 8\"  partition 4\"  deck 10\"  roof 8\"\n"
+                             "  storey low 9'  spine z  wall 8\"  partition 4\"  floor 10\"  roof 8\"\n"
                              "  function sleep \"one rests\" at cell(z, low)\n"
                              "  opening door wide 2'8\" high 6'8\" passage\n"
                              "  face cell(sleep) outside = door | wall\n"
@@ -796,15 +796,15 @@ static void test_forms(void **state)
     finish_live(&l);
 }
 
-/* In `section(`: the form's choices, then what each chooses among. */
+/* In `option(`: the form's choices, then what each chooses among. */
 static void test_sections(void **state)
 {
     static const char uri[] = "file:///nowhere/sections.plan";
     static const char text[] = "schema s { w role length = 8'  zone z role band = room(9') role void }\n"
-                               "form f of s { storey low 9' storey high 8' wall 8\" partition 4\" deck 10\" roof 8\"\n"
-                               "  section z storeys = 1 | 2  section z roof = gable(9:12) | vault(4')\n"
-                               "  section cladding = board | brick  function sleep at cell(z) }\n"
-                               "rule r = section(z roof vault) and section(cladding brick)\n";
+                               "form f of s { storey low 9' storey high 8' wall 8\" partition 4\" floor 10\" roof 8\"\n"
+                               "  option z storeys = 1 | 2  option z roof = gable(9:12) | vault(4')\n"
+                               "  option cladding = board | brick  function sleep at cell(z) }\n"
+                               "rule r = option(z roof vault) and option(cladding brick)\n";
     const struct {
         const char *before, *offered, *not_offered;
     } cases[] = {
@@ -875,10 +875,10 @@ static const char placed[] =
     "schema s { w role length = 8' | 12'  zone z role band = room(9') | hall(14')\n"
     "  zone b role band = nook(4') role void }\n"
     "form f of s {\n"
-    "  storey low 9'  storey high 8'  spine z  wall 8\"  partition 4\"  deck 10\"  roof 8\"\n"
-    "  section z storeys = 1 | 2  section b storeys = 1  section z roof = flat | gable(9:12)\n"
-    "  section cladding = board | brick\n"
-    "  forbid section(z storeys 2) and section(z roof gable)\n"
+    "  storey low 9'  storey high 8'  spine z  wall 8\"  partition 4\"  floor 10\"  roof 8\"\n"
+    "  option z storeys = 1 | 2  option b storeys = 1  option z roof = flat | gable(9:12)\n"
+    "  option cladding = board | brick\n"
+    "  forbid option(z storeys 2) and option(z roof gable)\n"
     "  void cell(z hall, high)\n"
     "  function sleep at cell(z room)  function sit at cell(z)  function niche at cell(b nook)\n"
     "  opening door wide 2'8\" high 6'8\" passage  opening gate wide 8' high 7'6\" passage\n"
@@ -889,7 +889,7 @@ static const char placed[] =
     "  tile pool for niche { item pool left 0..5', back 0..5' }\n"
     "  tile pole for niche { item pole left 0..1', back 0..1', up 0..9' }\n"
     "}\n"
-    "rule tall = section(z storeys 2) and section(cladding brick)\n";
+    "rule tall = option(z storeys 2) and option(cladding brick)\n";
 
 static json_t *ask_placed(live *l, const char *method, const char *uri, const char *before, size_t further)
 {
@@ -906,12 +906,12 @@ static void test_places(void **state)
         size_t further;
         const char *said[4];
     } cases[] = {
-        {"form f of", 5, {"4 trays of `s` have 12 cells", "6 sections; 2 more are forbidden"}},
+        {"form f of", 5, {"4 trays of `s` have 12 cells", "6 combinations of options; 2 more are forbidden"}},
         {"storey high",
          8,
-         {"it has 4 of 12 cells", "z: 4 cells, 2 of them open to the cell below, in 2 of 6 sections"}},
-        {"z storeys = 1", 3, {"choice `z storeys` of form `f`", "- `1`: in 4 of 6 sections", "- `2`: in 2 of 6"}},
-        {"cladding brick", 1, {"choice `cladding` of form `f`", "- `brick`: in 3 of 6 sections"}},
+         {"it has 4 of 12 cells", "z: 4 cells, 2 of them open to the cell below, in 2 of 6 combinations of options"}},
+        {"z storeys = 1", 3, {"choice `z storeys` of form `f`", "- `1`: in 4 of 6 combinations of options", "- `2`: in 2 of 6"}},
+        {"cladding brick", 1, {"choice `cladding` of form `f`", "- `brick`: in 3 of 6 combinations of options"}},
         {"function sit",
          10,
          {"it may be in 6 of 12 cells", "z, low: 4 of 4 cells, 8' to 12' wide and 9' to 14' deep, 72 ft2 to 168 ft2",
@@ -962,7 +962,7 @@ static void test_choices(void **state)
     live l;
     start_live(&l);
     open_document(&l.session, uri, placed);
-    json_t *answer = ask_placed(&l, "textDocument/definition", uri, "storeys 2) and section(c", 1);
+    json_t *answer = ask_placed(&l, "textDocument/definition", uri, "storeys 2) and option(c", 1);
     assert_true(mentions(answer, "\"line\":4"));
     json_decref(answer);
     answer = hear_answer(&l, ask(&l.session, "textDocument/documentSymbol", everything(uri)));

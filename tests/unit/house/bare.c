@@ -18,8 +18,8 @@ enum { FORMS = 300, PLANS = 6 };
 /* A form in which some cells have no function, and some tiles do not stand: what varies is drawn. */
 static const char written[] =
     "schema s { width = 8' | 10' zone body = open(8') | dense(10') zone bay = open(4') | empty }\n"
-    "form huts of s { storey ground 9' storey loft 8' wall 6\" partition 4\" deck 1' roof 10\"\n"
-    "section body storeys = 1 | 2  section bay storeys = 1\n"
+    "form huts of s { storey ground 9' storey loft 8' wall 6\" partition 4\" floor 1' roof 10\"\n"
+    "option body storeys = 1 | 2  option bay storeys = 1\n"
     "function hall at cell(body %s)  function room at cell(body%s)  function seat at cell(bay%s)\n"
     "opening door wide 3' high 6'8\" clear %u' passage  opening window wide 3' high 4' sill %u'\n"
     "face cell(hall) beside cell(any) = %s  face cell(any) beside cell(any) = door | open\n"

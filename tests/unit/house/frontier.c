@@ -576,7 +576,7 @@ static void test_placed(void **state)
     (void)state;
     static const char form[] =
         "schema hut {\n  width role length = 8'\n  zone body role band = room(10')\n  zone bay role band = empty role "
-        "absent | open(6')\n}\nform huts of hut {\n  storey ground 9'\n  wall 8\"\n  partition 4\"\n  deck 10\"\n"
+        "absent | open(6')\n}\nform huts of hut {\n  storey ground 9'\n  wall 8\"\n  partition 4\"\n  floor 10\"\n"
         "  roof 8\"\n  function bed at cell(any)\n  function seat at cell(bay)\n"
         "  face cell(bed) beside cell(bed) = open | wall\n  face cell(seat) across cell(any) = open | wall\n}\n"
         "library rows using hut { trays 1..3 }\nlibrary all from rows in huts { }\n"
@@ -611,7 +611,7 @@ static void test_placed_limit(void **state)
         size += (size_t)snprintf(text + size, sizeof text - size,
                                  "  zone part%d role band = empty role absent | room(8')\n", z);
     snprintf(text + size, sizeof text - size,
-             "}\nform huts of hut {\n  storey ground 9'\n  wall 8\"\n  partition 4\"\n  deck 10\"\n  roof 8\"\n"
+             "}\nform huts of hut {\n  storey ground 9'\n  wall 8\"\n  partition 4\"\n  floor 10\"\n  roof 8\"\n"
              "  function bed at cell(any)\n  face cell(bed) along cell(bed) = open\n}\n"
              "library rows using hut { trays 6 prune neighbour(tray(part0 room), tray(part0 empty)) }\n"
              "library all from rows in huts { }\n"
@@ -659,7 +659,7 @@ static walled walled_text(const char *clause)
     snprintf(made.text, sizeof made.text,
              "schema hut {\n  width role length = 8'\n  zone rear role band = room(6') role solid | none role absent\n"
              "  zone body role band = hall(10') role void | room(8') role solid\n}\nform huts of hut {\n"
-             "  storey ground 9'\n  wall 8\"\n  partition 4\"\n  deck 10\"\n  roof 8\"\n"
+             "  storey ground 9'\n  wall 8\"\n  partition 4\"\n  floor 10\"\n  roof 8\"\n"
              "  function living at cell(rear room) or cell(body room)\n  function store at cell(body room)\n"
              "  opening door wide 2'8\" high 6'8\" passage\n  face cell(store) beside cell(any) = wall\n"
              "  face cell(any) beside cell(any) = door\n}\nlibrary rows using hut { trays 1..3 }\n"
@@ -685,7 +685,7 @@ static void test_by_hand(void **state)
     (void)state;
     static const char text[] =
         "schema row {\n  bay role length = 3m\n  zone house = room(4m)\n}\nform two of row {\n"
-        "  storey floor 3m\n  wall 300mm\n  partition 100mm\n  deck 300mm\n  roof 200mm\n"
+        "  storey floor 3m\n  wall 300mm\n  partition 100mm\n  floor 300mm\n  roof 200mm\n"
         "  function living at cell(house)\n  function store at cell(house)\n"
         "  opening door wide 1m high 2m passage\n  face cell(any) beside cell(any) = door | wall\n}\n"
         "library rows using row { trays 1..3 }\nlibrary all from rows in two { }\nlibrary some from rows in two {\n"
@@ -745,7 +745,7 @@ static void test_mirror(void **state)
     (void)state;
     static const char text[] =
         "schema hut {\n  width role length = 8' | 10'\n  zone body role band = room(10')\n}\nform huts of hut {\n"
-        "  storey ground 9'\n  wall 8\"\n  partition 4\"\n  deck 10\"\n  roof 8\"\n"
+        "  storey ground 9'\n  wall 8\"\n  partition 4\"\n  floor 10\"\n  roof 8\"\n"
         "  function living at cell(body)\n  function bed at cell(body)\n"
         "  opening door wide 2'8\" high 6'8\" passage\n  face cell(any) beside cell(any) = door | wall\n}\n"
         "library rows using hut { trays 1..3 }\nlibrary all from rows in huts { }\nlibrary some from rows in huts {\n"

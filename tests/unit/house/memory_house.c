@@ -209,7 +209,7 @@ static void test_best(void **state)
 
 static const char priced[] =
     "schema hut {\n  width role length = 10'\n  zone body role band = room(10')\n}\n"
-    "form huts of hut {\n  storey ground 9'\n  wall 8\"\n  partition 4\"\n  deck 10\"\n  roof 8\"\n"
+    "form huts of hut {\n  storey ground 9'\n  wall 8\"\n  partition 4\"\n  floor 10\"\n  roof 8\"\n"
     "  function living at cell(body)\n  function bed at cell(body)\n"
     "  face cell(body) beside cell(body) = open | wall\n"
     "  material stone \"#808080\" price 12.50 per sf for wall\n  material pine \"#b08050\" price 90 per each for cot\n"
@@ -222,7 +222,7 @@ static const char priced[] =
 /* Clauses that ask where in the row rooms and walks are. */
 static const char placed[] =
     "schema hut {\n  width role length = 10'\n  zone body role band = room(10')\n}\n"
-    "form huts of hut {\n  storey ground 9'\n  wall 8\"\n  partition 4\"\n  deck 10\"\n  roof 8\"\n"
+    "form huts of hut {\n  storey ground 9'\n  wall 8\"\n  partition 4\"\n  floor 10\"\n  roof 8\"\n"
     "  function living at cell(body)\n  function bed at cell(body)\n"
     "  face cell(body) beside cell(body) = open | wall\n}\n"
     "library rows using hut { trays 1..2 }\nlibrary all from rows in huts { }\n"

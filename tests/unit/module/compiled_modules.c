@@ -140,7 +140,7 @@ static void test_changes_with_the_right_hash_are_harmless(void **state)
 /* A form whose walls and roofs have layers of lengths that nothing else has. */
 static const char layered[] = "schema s { front = 4m  zone body role band = space(6m) role void }\n"
                               "form f of s { storey ground 3m wall outside 200mm { boards 63mm, studs 137mm }\n"
-                              "  partition 100mm { studs 100mm } deck 300mm roof 240mm { tiles 31mm, rafters 209mm } function hall at cell(body) }\n";
+                              "  partition 100mm { studs 100mm } floor 300mm roof 240mm { tiles 31mm, rafters 209mm } function hall at cell(body) }\n";
 
 /* Puts another number, of eight bytes, in the place of one that is there once. */
 static void put_in_place(uint8_t *bytes, size_t size, int64_t from, int64_t to)

@@ -30,9 +30,9 @@ static const char text[] =
 
 static const char cabins[] =
     "schema bay { width role length = 3m | 4m zone body role band = room(4m) role void }\n"
-    "form cabin of bay { storey low 3m storey high 2800mm wall 200mm partition 100mm deck 300mm roof 200mm\n"
-    "  section body storeys = 1 | 2 section body roof = flat | gable(9:12) section colour = red | blue\n"
-    "  forbid section(colour red) and section(body storeys 2) void cell(high, 3m) no cell(low, area < 10m2)\n"
+    "form cabin of bay { storey low 3m storey high 2800mm wall 200mm partition 100mm floor 300mm roof 200mm\n"
+    "  option body storeys = 1 | 2 option body roof = flat | gable(9:12) option colour = red | blue\n"
+    "  forbid option(colour red) and option(body storeys 2) void cell(high, 3m) no cell(low, area < 10m2)\n"
     "  function live at cell(low) function sleep at cell(body)\n"
     "  opening door wide 900mm high 2m clear 1m passage opening pane wide 1m high 1m sill 1m glazed\n"
     "  face cell(live) beside cell(sleep) = door | wall  face cell(any) outside = pane | wall\n"
@@ -46,12 +46,12 @@ static const char cabins[] =
 /* Clauses that change nothing, and that contradict one another; values that no house has; rules that are equal. */
 static const char idle[] =
     "schema bay { width role length = 3m | 4m zone body role band = room(4m) role void }\n"
-    "form cabin of bay { storey low 3m wall 200mm partition 100mm deck 300mm roof 200mm\n"
-    "  section body roof = flat | gable(9:12) function live at cell(body) function sleep at cell(body)\n"
+    "form cabin of bay { storey low 3m wall 200mm partition 100mm floor 300mm roof 200mm\n"
+    "  option body roof = flat | gable(9:12) function live at cell(body) function sleep at cell(body)\n"
     "  opening door wide 900mm high 2m passage face cell(any) beside cell(any) = door | wall }\n"
     "library bays using bay { trays 1..2 }\n"
     "rule beds = cell(sleep) rule slept = quantity(cell(sleep), n >= 1) rule more = quantity(cell(sleep), n > 1)\n"
-    "library some from bays in cabin { require section(body roof flat), beds prune not slept }\n"
+    "library some from bays in cabin { require option(body roof flat), beds prune not slept }\n"
     "library none from bays in cabin { require more prune slept, cell(live) as live }\n";
 
 static const tn_tray dropped[] = {3, 2, 3, 0, 5, 5};

@@ -15,8 +15,8 @@
 static const char text[] =
     "schema hut { width role length = 8' | 10' zone body role band = room(10', 12') }\n"
     "form huts \"small\" of hut {\n"
-    "  storey ground 9' wall 6\" partition 4\" deck 10\" roof 8\"\n"
-    "  section body storeys = 1 section body roof = gable(9:12) | vault(3')\n"
+    "  storey ground 9' wall 6\" partition 4\" floor 10\" roof 8\"\n"
+    "  option body storeys = 1 option body roof = gable(9:12) | vault(3')\n"
     "  function bed \"sleeps\" at cell(body)\n"
     "  opening window \"a sash\" wide 3' high 4' sill 2'8\"\n"
     "  opening door wide 2'8\" high 6'8\" clear 2' passage\n"
@@ -25,7 +25,7 @@ static const char text[] =
     "  tile cot \"<low>\" for bed { against wall item cot left 1'..right 1', back 0..6', up 0..2' }\n"
     "}\n"
     "library rows using hut { trays 1..2 }\n"
-    "library all from rows in huts { prune section(body roof vault) as round \"too dear\" }\n";
+    "library all from rows in huts { prune option(body roof vault) as round \"too dear\" }\n";
 
 static tn_opened opened;
 static tn_schema *schema;
