@@ -83,9 +83,10 @@ typedef struct tn_draw_area {
 } tn_draw_area;
 
 /* A cross of dashes over the area, which leaves what is `spared` free (at most TN_SPARED_MOST), and from three storeys
- * on their number, beside what is spared first where that reaches as high. */
+ * on their number, beside what is spared first where that reaches as high, on a pale ground if the area is hatched. */
 #define TN_SPARED_MOST 2u
-void tn_draw_level_mark(tn_paint *paint, uint32_t levels, tn_draw_area area, const tn_draw_area *spared, size_t count);
+void tn_draw_level_mark(tn_paint *paint, uint32_t levels, bool hatched, tn_draw_area area, const tn_draw_area *spared,
+                        size_t count);
 void tn_draw_hall_mark(tn_paint *paint, double x, double y, double radius);
 void tn_draw_public_mark(tn_paint *paint, double x, double y, double dx,
                          double dy); /* tip at (x, y), pointing (dx, dy) */

@@ -240,7 +240,8 @@ static void line_around(tn_paint *paint, double x, double y, double across, doub
     }
 }
 
-void tn_draw_level_mark(tn_paint *paint, uint32_t levels, tn_draw_area area, const tn_draw_area *spared, size_t count)
+void tn_draw_level_mark(tn_paint *paint, uint32_t levels, bool hatched, tn_draw_area area, const tn_draw_area *spared,
+                        size_t count)
 {
     static const double dashes[] = {3, 1.6};
     tn_paint_save(paint);
@@ -255,11 +256,14 @@ void tn_draw_level_mark(tn_paint *paint, uint32_t levels, tn_draw_area area, con
         return;
     char text[16];
     bool beside = count > 0 && spared[0].width > 0 && spared[0].y < area.y + 7; /* of a name that reaches as high */
+    double middle = beside ? (area.x + spared[0].x) / 2 : area.x + area.width / 2;
     snprintf(text, sizeof text, "%u", levels);
     tn_paint_layer(paint, TN_LAYER_SYMBOL);
     tn_paint_face(paint, DIMENSION_SIZE, false);
-    tn_type_line(paint, beside ? (area.x + spared[0].x) / 2 : area.x + area.width / 2, area.y + 7, TN_ALIGN_CENTRE,
-                 text);
+    double half = tn_type_width(paint, text) / 2 + 1;
+    if (hatched)
+        tn_type_veil(paint, middle - half, area.y + 7 - DIMENSION_SIZE * 0.9, 2 * half, DIMENSION_SIZE * 1.1, 0.8);
+    tn_type_line(paint, middle, area.y + 7, TN_ALIGN_CENTRE, text);
 }
 
 static void draw_circle(tn_paint *paint, const void *of)
@@ -502,7 +506,9 @@ static void draw_levels(const picture *p, tn_tray tray, rectangle room, const ch
         spared[count++] = (tn_draw_area){room.x + room.width * (0.5 - part), room.y + room.height * (0.5 - part),
                                          room.width * 2 * part, room.height * 2 * part};
     }
-    tn_draw_level_mark(p->paint, levels, (tn_draw_area){room.x, room.y, room.width, room.height}, spared, count);
+    bool hatched = p->roles->schema->values[room.value].role == TN_FILL_SOLID;
+    tn_draw_level_mark(p->paint, levels, hatched, (tn_draw_area){room.x, room.y, room.width, room.height}, spared,
+                       count);
 }
 
 static void draw_marks(const picture *p, double bottom)

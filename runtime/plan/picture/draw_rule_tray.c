@@ -434,7 +434,7 @@ static void draw_levels(tn_paint *paint, const tn_draw_roles *roles, uint32_t sp
     for (uint32_t v = 0; v < count; v++)
         most = allows(roles, spec, roles->level, v) ? v + 1 : most;
     if (allowed(roles, spec, roles->level) == 1 && most > 1) {
-        tn_draw_level_mark(paint, most, (tn_draw_area){left, y, TRAY_WIDTH, height}, NULL, 0);
+        tn_draw_level_mark(paint, most, false, (tn_draw_area){left, y, TRAY_WIDTH, height}, NULL, 0);
         return;
     }
     for (uint32_t i = 0; i < most; i++)

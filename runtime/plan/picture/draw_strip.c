@@ -202,7 +202,7 @@ static void level_entries(strip *s)
         tn_paint_layer(s->paint, TN_LAYER_AREA);
         tn_paint_weight(s->paint, TN_WEIGHT_HATCH);
         tn_paint_stroke(s->paint);
-        tn_draw_level_mark(s->paint, v - schema->value_start[field] + 1,
+        tn_draw_level_mark(s->paint, v - schema->value_start[field] + 1, false,
                            (tn_draw_area){x, y, SWATCH_WIDTH, SWATCH_HEIGHT}, NULL, 0);
         tn_string doc = schema->values[v].doc ? schema->values[v].doc : schema->fields[field].doc;
         label(s, x, y, width, text_at(s, schema->values[v].name), text_at(s, doc ? doc : schema->fields[field].name));
