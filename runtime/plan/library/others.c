@@ -3,6 +3,9 @@
 
 #include <stdlib.h>
 
+#include "runtime/plan/library/drawn.h"
+
+#define APART_SHARE 16u               /* of the steps of an answer: what is tried first */
 #define ANSWERS_WORK_PER_STATE 20000u /* steps for all clauses together: of a million states under a minute */
 
 bool tn_others_bounded(const tn_library *library)
@@ -189,13 +192,88 @@ static tn_status count_rest(const tn_others *others, size_t from, tn_bounds *bou
                              plans, count, error);
 }
 
+/* ---- taken apart: most clauses of many keep out by themselves little or nothing, and a few others show that */
+
+/* The clause not applied yet that most of some plans fail; the sequence's count: they fail none. */
+static size_t choose_clause(const tn_sequence *sequence, const bool *applied, const tn_drawn_plans *drawn)
+{
+    size_t best = sequence->count;
+    int most = 0;
+    for (size_t k = 0; k < sequence->count; k++) {
+        const tn_sequence_clause *clause = &sequence->clauses[k];
+        if (applied[k])
+            continue;
+        int failing = __builtin_popcountll(tn_drawn_plans_failing(drawn, clause->dfa, clause->keeping == TN_DFA_AND));
+        if (failing > most) {
+            best = k;
+            most = failing;
+        }
+    }
+    return best;
+}
+
+/* Leaves of the plans those that all clauses keep which are not applied: while there are any, first the one that most
+ * of some plans fail. */
+static tn_status take_apart(const tn_sequence *sequence, bool *applied, tn_bounds *bounds, tn_sparse **plans,
+                            tn_error *error)
+{
+    tn_status status = TN_OK;
+    bool chosen = true;
+    for (size_t next = 0; status == TN_OK && (*plans)->states > 0 && next < sequence->count;) {
+        size_t clause = sequence->count;
+        tn_drawn_plans drawn;
+        if (chosen) {
+            status = tn_drawn_plans_make(*plans, &drawn, error);
+            clause = status == TN_OK ? choose_clause(sequence, applied, &drawn) : clause;
+            chosen = clause < sequence->count;
+            tn_drawn_plans_clear(&drawn);
+        }
+        while (!chosen && next < sequence->count && applied[next])
+            next++;
+        clause = chosen ? clause : next;
+        if (status != TN_OK || clause == sequence->count)
+            break;
+        applied[clause] = true;
+        status = tn_sparse_apply(plans, sequence->clauses[clause].dfa, sequence->clauses[clause].keeping,
+                                 sequence->what, bounds, error);
+    }
+    return status;
+}
+
+/* As tn_others_count_alone, from the plans that the clause does not keep. TN_LIMIT: that takes much. */
+static tn_status count_taken_apart(const tn_others *others, size_t number, mpz_t count, tn_error *error)
+{
+    const tn_library *library = others->library;
+    const tn_sequence *sequence = &others->sequence;
+    tn_bounds bounds = others->each;
+    bool *applied = calloc(sequence->count + 1, sizeof *applied);
+    tn_sparse *plans = NULL;
+    bounds.max_work /= APART_SHARE;
+    tn_status status = applied ? tn_library_everything(library, true, &plans, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = tn_sparse_apply(&plans, sequence->clauses[number].dfa, dropping(&sequence->clauses[number]),
+                                 sequence->what, &bounds, error);
+    if (status == TN_OK) {
+        applied[number] = true;
+        status = take_apart(sequence, applied, &bounds, &plans, error);
+    }
+    if (status == TN_OK)
+        status = tn_count_range(plans, library->classes->size, library->min, library->max, count,
+                                library->schema->module->watch, error);
+    tn_sparse_free(plans);
+    free(applied);
+    return status;
+}
+
 tn_status tn_others_count_alone(const tn_others *others, size_t number, mpz_t count, tn_error *error)
 {
     const tn_sequence *sequence = &others->sequence;
     const tn_sequence_clause *clause = &sequence->clauses[number];
     tn_bounds bounds = others->each;
     tn_sparse *plans = NULL;
-    tn_status status;
+    tn_status status = count_taken_apart(others, number, count, error);
+    if (status != TN_LIMIT)
+        return status;
     if (number + 1 == sequence->count) {
         status = tn_sequence_before(sequence, number, &bounds, &plans, error);
         if (status == TN_OK)

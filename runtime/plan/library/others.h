@@ -34,7 +34,8 @@ void tn_others_free(tn_others *others);
 /* *plans := what the clause applied as this number keeps out and all others keep; the caller's. */
 tn_status tn_others_alone(const tn_others *others, size_t number, tn_sparse **plans, tn_error *error);
 
-/* How many plans of the library's lengths that is; the last automaton is not made. */
+/* How many plans of the library's lengths that is. First the plans that the clause drops are taken apart by the clauses
+ * that drop most of them, which is quick of clauses that alone keep out little; else the last automaton is not made. */
 tn_status tn_others_count_alone(const tn_others *others, size_t number, mpz_t count, tn_error *error);
 
 /* *left := these plans that all clauses keep but the `skipped` ones ([clause_count]); the caller's. */
