@@ -1,4 +1,4 @@
-/* best, pareto: the best plans, or houses, by measures in their order, and the best trade-offs of two or three. */
+/* best: the best plans, or houses, by measures in their order. */
 #include "ask/plan/best.h"
 
 #include <inttypes.h>
@@ -52,8 +52,7 @@ tn_status tn_wishes_of_plans(tn_session *session, const tn_ready_library *ready,
     return status;
 }
 
-/* Says how many plans are left out since they have no value of one of the measures. */
-static tn_status wishes_note_none(tn_session *session, const tn_wishes *wishes, tn_weighed *weighed, tn_error *error)
+tn_status tn_wishes_note_none(tn_session *session, const tn_wishes *wishes, tn_weighed *weighed, tn_error *error)
 {
     const tn_library *library = tn_weighed_library(weighed);
     const tn_module *module = tn_library_schema(library)->module;
@@ -76,14 +75,13 @@ static tn_status wishes_note_none(tn_session *session, const tn_wishes *wishes, 
     return status;
 }
 
-/* Values of measures, in nanometres to their power. */
-static void wishes_room(mpq_t values[TN_WEIGHED_MAX])
+void tn_wishes_room(mpq_t values[TN_WEIGHED_MAX])
 {
     for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
         mpq_init(values[k]);
 }
 
-static void wishes_clear(mpq_t values[TN_WEIGHED_MAX])
+void tn_wishes_clear(mpq_t values[TN_WEIGHED_MAX])
 {
     for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
         mpq_clear(values[k]);
@@ -134,7 +132,7 @@ static tn_status prepare(searching *s, tn_error *error)
     const tn_library *library = s->ready->library;
     tn_status status = tn_weighed_new(library, s->wishes.measures, s->wishes.count, &s->weighed, error);
     if (status == TN_OK)
-        status = wishes_note_none(s->session, &s->wishes, s->weighed, error);
+        status = tn_wishes_note_none(s->session, &s->wishes, s->weighed, error);
     if (status == TN_OK)
         status = tn_best_new(s->weighed, s->wishes.most, &s->best, error);
     if (status == TN_OK)
@@ -148,7 +146,7 @@ static void clear(searching *s)
     tn_ranking_free(s->ranking);
     tn_best_free(s->best);
     tn_weighed_free(s->weighed);
-    wishes_clear(s->values);
+    tn_wishes_clear(s->values);
     free(s->trays);
 }
 
@@ -362,7 +360,7 @@ static tn_status best_plans(tn_session *session, const tn_best_request *request,
         return tn_session_fail(session, &limit);
     tn_found_of of = {.plans = s.ready, .wishes = &s.wishes, .unranked = searched};
     tn_finds finds = {.session = session, .of = &of, .answer = answer, .lines = request->lines};
-    wishes_room(s.values);
+    tn_wishes_room(s.values);
     if (searched)
         status = best_searched(&s, &limit, &finds, &error);
     else
@@ -470,9 +468,8 @@ void tn_houses_search_end(tn_houses_search *s)
     mpz_clear(s->count);
 }
 
-/* Begins a search, has `give` make the answer of them. What is wrong is said. */
-static tn_status houses_search_give(tn_session *session, const tn_house_asked *asked,
-                                    tn_status (*give)(tn_houses_search *search, tn_reply *answer), tn_reply *answer)
+tn_status tn_houses_search_give(tn_session *session, const tn_house_asked *asked,
+                                tn_status (*give)(tn_houses_search *search, tn_reply *answer), tn_reply *answer)
 {
     tn_houses_search search;
     tn_status status = tn_houses_search_begin(&search, session, asked);
@@ -529,9 +526,8 @@ static tn_status judge_house(void *context, const tn_house *house, bool *stop, t
     return status == TN_OK && differs ? j->each(j->context, house, stop, error) : status;
 }
 
-/* The same of one point. */
-static tn_status houses_search_of_point(tn_houses_search *s, size_t point, tn_house_alike alike, tn_house_each *each,
-                                        void *context, tn_error *error)
+tn_status tn_houses_search_of_point(tn_houses_search *s, size_t point, tn_house_alike alike, tn_house_each *each,
+                                    void *context, tn_error *error)
 {
     search_point(s, point);
     judged j = {.search = s, .alike = alike, .each = each, .context = context};
@@ -544,7 +540,7 @@ static tn_status each_of_points(tn_houses_search *s, tn_house_alike alike, tn_ho
 {
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && s->given < s->wanted && i < tn_houses_search_points(s); i++)
-        status = houses_search_of_point(s, i, alike, each, context, error);
+        status = tn_houses_search_of_point(s, i, alike, each, context, error);
     return status;
 }
 
@@ -636,11 +632,11 @@ static tn_status give(tn_houses_search *search, tn_reply *answer)
     tn_found_of of = {.houses = &search->n, .wishes = &search->found};
     tn_finds finds = {.session = session, .of = &of, .answer = answer};
     giving g = {.search = search, .finds = &finds};
-    wishes_room(g.values);
+    tn_wishes_room(g.values);
     tn_status status = tn_finds_begin(&finds, &error);
     if (status == TN_OK && !finds.ended)
         status = tn_houses_search_each(search, give_house, &g, &error);
-    wishes_clear(g.values);
+    tn_wishes_clear(g.values);
     if (status == TN_OK && !finds.ended && search->walked.without == 0)
         tn_numbered_say_few(&search->n, search->plan.trays != NULL, search->given, search->wanted);
     return tn_finds_end(&finds, status, &error);
@@ -657,226 +653,5 @@ static tn_status find_best_houses(tn_session *session, const tn_best_request *re
                                   .by = request->by.items,
                                   .by_count = request->by.count,
                                   .by_least = 1};
-    return houses_search_give(session, &asked, give, answer);
-}
-
-/* ---- pareto */
-
-static void free_front(void *made)
-{
-    tn_plan_front *front = made;
-    tn_pareto_clear(&front->front);
-    tn_weighed_free(front->weighed);
-    free(front);
-}
-
-static tn_status name_measures(const tn_wishes *wishes, tn_found_front *front, tn_error *error)
-{
-    tn_status status = TN_OK;
-    for (uint32_t k = 0; status == TN_OK && k < wishes->count; k++)
-        status = tn_owneds_add(&front->measures, strdup(wishes->names[k]), error);
-    return status;
-}
-
-/* The values, exact and for people. `values` are in nanometres to their power. */
-static tn_status set_values(const tn_wishes *wishes, mpq_t *values, tn_front_point *point, tn_error *error)
-{
-    tn_status status = tn_exacts_room(&point->values, wishes->count, error);
-    for (uint32_t k = 0; status == TN_OK && k < wishes->count; k++) {
-        mpq_set(point->values.items[k], values[k]);
-        tn_amount_convert(wishes->units[k], point->values.items[k]);
-        status = tn_owneds_add(&point->shown, tn_wish_text(wishes, k, values[k]), error);
-    }
-    return status;
-}
-
-/* ---- plans */
-
-static tn_status set_plan(const tn_plan_front *f, const tn_pareto_point *from, tn_front_point *point, tn_error *error)
-{
-    mpq_t values[TN_WEIGHED_MAX];
-    wishes_room(values);
-    for (uint32_t k = 0; k < f->wishes.count; k++)
-        tn_weighed_value(f->weighed, k, from->values, values[k]);
-    tn_status status = set_values(&f->wishes, values, point, error);
-    wishes_clear(values);
-    point->has_plans = point->has_rank = point->has_plan = true;
-    mpz_set(point->plans, from->plans);
-    if (status == TN_OK && !tn_library_rank(f->ready->library, from->trays, from->length, point->rank))
-        status = tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a plan of the front is not in the library");
-    return status == TN_OK ? tn_found_plan_texts(f->ready->schema, from->trays, from->length, &point->plan, NULL, error)
-                           : status;
-}
-
-static tn_status find_plans(tn_session *session, tn_plan_front *f, tn_error *error)
-{
-    tn_session_begins(session, "looking for the front");
-    tn_status status = tn_weighed_new(f->ready->library, f->wishes.measures, f->wishes.count, &f->weighed, error);
-    if (status == TN_OK)
-        status = wishes_note_none(session, &f->wishes, f->weighed, error);
-    if (status == TN_OK)
-        status = tn_pareto_make(&f->front, f->weighed, f->wishes.most, error);
-    tn_session_ends(session);
-    return status;
-}
-
-static tn_status give_front(tn_session *session, tn_found_front *front, tn_error *error)
-{
-    tn_plan_front *f = front->shown.value;
-    tn_status status = find_plans(session, f, error);
-    if (status == TN_OK)
-        status = name_measures(&f->wishes, front, error);
-    if (status == TN_OK)
-        status = TN_NEW_LIST(front_point, front->points, f->front.count, error);
-    for (size_t i = 0; status == TN_OK && i < f->front.count; i++)
-        status = set_plan(f, &f->front.points[i], &front->points.items[i], error);
-    return status;
-}
-
-/* ---- plans that are searched */
-
-static tn_status set_searched(const tn_schema *schema, const tn_wishes *wishes, tn_searched_point *from,
-                              tn_front_point *point, tn_error *error)
-{
-    tn_status status = set_values(wishes, from->values, point, error);
-    point->has_plan = true;
-    return status == TN_OK ? tn_found_plan_texts(schema, from->trays, from->length, &point->plan, NULL, error) : status;
-}
-
-static tn_status give_searched_front(const tn_ready_library *ready, const tn_wishes *wishes, tn_searched_front *found,
-                                     tn_reply *answer, tn_error *error)
-{
-    tn_status status = tn_reply_new(&tn_message_found_front, answer, error);
-    if (status != TN_OK)
-        return status;
-    tn_found_front *front = answer->value;
-    front->has_proven = true;
-    front->proven = found->proven;
-    status = name_measures(wishes, front, error);
-    if (status == TN_OK)
-        status = TN_NEW_LIST(front_point, front->points, found->count, error);
-    for (size_t i = 0; status == TN_OK && i < found->count; i++)
-        status = set_searched(ready->schema, wishes, &found->points[i], &front->points.items[i], error);
-    return status;
-}
-
-/* A quotient's automaton alone has its values. */
-static bool is_quotient(const tn_module *module, const tn_wishes *wishes)
-{
-    bool any = false;
-    for (uint32_t k = 0; k < wishes->count; k++)
-        any |= tn_named_measure_over(module, wishes->measures[k]) != TN_NO_RECORD;
-    return any;
-}
-
-static tn_status search_front(tn_session *session, const tn_pareto_request *request, const tn_ready_library *ready,
-                              const tn_wishes *wishes, const tn_error *limit, tn_reply *answer)
-{
-    const tn_module *module = session->opened->module;
-    uint32_t sums[TN_WEIGHED_MAX];
-    tn_searched_front found = {0};
-    tn_plan_search *search;
-    tn_error error;
-    if (is_quotient(module, wishes))
-        return tn_session_fail(session, limit);
-    for (uint32_t k = 0; k < wishes->count; k++)
-        sums[k] = tn_named_measure_sum(module, ready->record, wishes->measures[k]);
-    tn_searched_note(session, limit);
-    tn_status status = tn_searched_new(session, ready, &request->subject, &request->search, &search);
-    if (status != TN_OK)
-        return status;
-    tn_session_begins(session, "looking for the front");
-    status = tn_plan_search_front(search, sums, wishes->most, wishes->count, &found, &error);
-    tn_session_ends(session);
-    tn_plan_search_free(search);
-    if (status == TN_OK && !found.proven)
-        tn_session_note(session, "it is not proven within --max-conflicts that no plan betters one of these, and that "
-                                 "none is missing");
-    if (status == TN_OK)
-        status = give_searched_front(ready, wishes, &found, answer, &error);
-    tn_searched_front_clear(&found);
-    return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
-}
-
-static tn_status front_of_plans(tn_session *session, const tn_pareto_request *request, tn_reply *answer)
-{
-    const tn_ready_library *ready;
-    tn_wishes wishes;
-    tn_error error, limit;
-    tn_status status = tn_session_searched(session, &request->subject, false, &ready, &limit);
-    if (status == TN_OK)
-        status = tn_wishes_of_plans(session, ready, request->by.items, request->by.count, 2, &wishes);
-    if (status != TN_OK)
-        return status;
-    if (!ready->library)
-        return search_front(session, request, ready, &wishes, &limit, answer);
-    status = tn_reply_new(&tn_message_found_front, answer, &error);
-    if (status == TN_OK) {
-        tn_found_front *front = answer->value;
-        tn_plan_front *f = calloc(1, sizeof *f);
-        front->shown = (tn_boxed){f, free_front};
-        if (f)
-            *f = (tn_plan_front){.ready = ready, .wishes = wishes};
-        status = f ? give_front(session, front, &error) : tn_fail_memory(&error);
-    }
-    return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
-}
-
-/* ---- houses */
-
-static tn_status take_line(void *context, const tn_house *house, bool *stop, tn_error *error)
-{
-    tn_front_point *point = context;
-    *stop = true;
-    return tn_found_house_texts(house, &point->house, NULL, error);
-}
-
-static tn_status set_house(tn_houses_search *search, size_t i, tn_front_point *point, tn_error *error)
-{
-    mpq_t values[TN_WEIGHED_MAX];
-    tn_status status = houses_search_of_point(search, i, TN_ALIKE_NOTHING, take_line, point, error);
-    if (status != TN_OK)
-        return status;
-    wishes_room(values);
-    for (uint32_t k = 0; k < search->found.count; k++)
-        tn_houses_search_value(search, k, values[k]);
-    point->has_houses = point->has_house = true;
-    mpz_set(point->houses, search->count);
-    status = set_values(&search->found, values, point, error);
-    wishes_clear(values);
-    return status;
-}
-
-static tn_status give_houses(tn_houses_search *search, tn_reply *answer)
-{
-    tn_error error;
-    size_t count = tn_houses_search_points(search);
-    tn_status status = tn_reply_new(&tn_message_found_front, answer, &error);
-    tn_found_front *front = answer->value;
-    if (status == TN_OK)
-        status = name_measures(&search->found, front, &error);
-    if (status == TN_OK)
-        status = TN_NEW_LIST(front_point, front->points, count, &error);
-    for (size_t i = 0; status == TN_OK && i < count; i++)
-        status = set_house(search, i, &front->points.items[i], &error);
-    return status == TN_OK ? TN_OK : tn_session_fail(search->n.session, &error);
-}
-
-static tn_status front_of_houses(tn_session *session, const tn_pareto_request *request, tn_reply *answer)
-{
-    const tn_house_asked asked = {.subject = &request->subject,
-                                  .plan = request->plan,
-                                  .wanted = UINT64_MAX,
-                                  .aim = TN_HOUSES_FRONT,
-                                  .by = request->by.items,
-                                  .by_count = request->by.count,
-                                  .by_least = 2};
-    return houses_search_give(session, &asked, give_houses, answer);
-}
-
-tn_status tn_ask_pareto(tn_session *session, const tn_pareto_request *request, tn_reply *answer)
-{
-    *answer = (tn_reply){0};
-    bool houses = request->plan || tn_session_of_houses(session, &request->subject);
-    return (houses ? front_of_houses : front_of_plans)(session, request, answer);
+    return tn_houses_search_give(session, &asked, give, answer);
 }

@@ -17,6 +17,13 @@
 tn_status tn_wishes_of_plans(tn_session *session, const tn_ready_library *ready, const tn_wish *items, size_t count,
                              uint32_t least, tn_wishes *wishes);
 
+/* Says how many plans are left out since they have no value of one of the measures. */
+tn_status tn_wishes_note_none(tn_session *session, const tn_wishes *wishes, tn_weighed *weighed, tn_error *error);
+
+/* Makes room for values of measures, in nanometres to their power; and takes it away. */
+void tn_wishes_room(mpq_t values[TN_WEIGHED_MAX]);
+void tn_wishes_clear(mpq_t values[TN_WEIGHED_MAX]);
+
 /* A value for people (malloc); NULL: out of memory. */
 char *tn_wish_text(const tn_wishes *wishes, uint32_t k, const mpq_t value);
 
@@ -86,6 +93,15 @@ typedef struct tn_house_asked {
 /* Opens the library and finds the values. What is wrong is said. End it in any case. */
 tn_status tn_houses_search_begin(tn_houses_search *search, tn_session *session, const tn_house_asked *asked);
 void tn_houses_search_end(tn_houses_search *search);
+
+/* Begins a search, has `give` make the answer of it, and ends it. What is wrong is said. */
+tn_status tn_houses_search_give(tn_session *session, const tn_house_asked *asked,
+                                tn_status (*give)(tn_houses_search *search, tn_reply *answer), tn_reply *answer);
+
+/* Comes to a point, and calls `each` with its houses until it stops, diverse ones only if they differ so from those
+ * before. */
+tn_status tn_houses_search_of_point(tn_houses_search *search, size_t point, tn_house_alike alike, tn_house_each *each,
+                                    void *context, tn_error *error);
 
 /* How many values there are. */
 size_t tn_houses_search_points(const tn_houses_search *search);
