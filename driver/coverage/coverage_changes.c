@@ -10,6 +10,7 @@
 #include "driver/coverage/coverage_changes.h"
 #include "driver/coverage/noticing.h"
 #include "runtime/plan/analysis/coverage.h"
+#include "runtime/plan/library/diff.h"
 #include "runtime/plan/match/same.h"
 #include "runtime/plan/match/vm.h"
 
@@ -101,18 +102,6 @@ static tn_status find_changed(const trying *t, const tn_module *changed, uint32_
 
 /* ---- making the changes */
 
-static bool same_trays(const tn_schema *a, const tn_schema *b)
-{
-    if (a->tray_count != b->tray_count || !a->legal != !b->legal)
-        return false;
-    if (a->legal) { /* equal trays, equal nodes */
-        const tn_interner *one = &a->legal->nodes, *other = &b->legal->nodes;
-        return one->words_used == other->words_used &&
-               memcmp(one->words, other->words, one->words_used * sizeof *one->words) == 0;
-    }
-    return memcmp(a->tray_values, b->tray_values, (size_t)a->tray_count * a->field_count) == 0;
-}
-
 static bool same_lengths(const trying *t, const tn_module *changed)
 {
     const tn_library_record *now = t->m->library;
@@ -171,7 +160,7 @@ static tn_status try_opened(trying *t, size_t i, tn_opened *opened, tn_error *er
     tn_schema *schema = NULL;
     tried *item = &t->items[i];
     tn_status status = tn_schema_new(opened->module, t->m->schema_index, 0, &schema, error);
-    if (status == TN_INVALID || (status == TN_OK && !same_trays(t->m->covered->schema, schema))) {
+    if (status == TN_INVALID || (status == TN_OK && !tn_same_trays(t->m->covered->schema, schema))) {
         tn_schema_free(schema);
         return TN_OK; /* a `let` that the schema uses */
     }

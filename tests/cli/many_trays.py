@@ -122,6 +122,12 @@ hashes = [json.loads(run("count", path, "--json"))["hash"] for path in (wide, bo
 assert hashes[0] == hashes[1], "equal plans, equal hash"
 fewer = write("fewer.plan", text.replace("n > 2", "n > 1").splitlines())
 assert json.loads(run("count", fewer, "--json"))["hash"] != hashes[0], "other plans, another hash"
+changed = json.loads(run("diff", wide, fewer, "--json"))["total"]
+assert [int(changed[part]) for part in ("removed", "added")] == [total - sum(kept_by_length(fewer)), 0], changed
+turned = write("turned.plan", text.replace("  f0 = a0 | b0\n  f1 = a1 | b1\n", "  f1 = a1 | b1\n  f0 = a0 | b0\n").splitlines())
+assert "E0803" in run("diff", wide, turned, code=4)
+lacking = write("lacking.plan", text.replace("  number", "  forbid tray(a0, a4)\n  number").splitlines())
+assert "E0508" in run("diff", wide, lacking, code=1)
 
 # ---- 12 fields of 4 values: a place is white, black, or the left or right half of a domino. Tilings are Pell's numbers.
 PLACES = 12

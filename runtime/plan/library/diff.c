@@ -9,7 +9,7 @@
 
 struct tn_library_diff {
     const tn_library *sides[2]; /* before, after */
-    tn_tray *map;               /* [trays]: the tray of `after` that a tray of `before` is */
+    tn_tray *map;               /* [trays]: the tray of `after` that a tray of `before` is; NULL: the same */
     tn_classes *classes;        /* trays that neither library tells apart */
     uint32_t max_states;
     tn_watch *watch; /* while it is made */
@@ -35,11 +35,27 @@ static const char *clause_name(const tn_library_diff *d, int side, size_t i)
     return tn_text(d->sides[side]->schema->module, clause(d, side, i)->name);
 }
 
+static tn_tray tray_after(const tn_library_diff *d, tn_tray tray)
+{
+    return d->map ? d->map[tray] : tray;
+}
+
 /* ---- one alphabet for both */
+
+/* The same where trays are not listed, and have the same numbers. */
+static tn_status refine_classes(const tn_library_diff *d, tn_classes **out, tn_error *error)
+{
+    tn_status status = tn_classes_new(d->sides[0]->schema, NULL, 0, out, error);
+    for (int side = 0; status == TN_OK && side < 2; side++)
+        status = tn_classes_refine(*out, d->sides[side]->classes, error);
+    return status;
+}
 
 static tn_status join_classes(const tn_library_diff *d, tn_classes **out, tn_error *error)
 {
     const tn_schema *schema = d->sides[0]->schema;
+    if (!d->map)
+        return refine_classes(d, out, error);
     tn_classes *classes = calloc(1, sizeof *classes);
     tn_numbering pairs = {0};
     if (!classes)
@@ -78,7 +94,7 @@ static tn_status reletter(const tn_library_diff *d, int side, const tn_dfa *dfa,
         return tn_fail_memory(error);
     for (uint32_t l = 0; l < joint->letters; l++) {
         tn_tray tray = d->classes->representative[l];
-        joint->column[l] = dfa->column[own->of_tray[side ? d->map[tray] : tray]];
+        joint->column[l] = dfa->column[tn_class_of(own, side ? tray_after(d, tray) : tray)];
     }
     memcpy(joint->delta, dfa->delta, (size_t)dfa->states * dfa->columns * sizeof *dfa->delta);
     memcpy(joint->accept, dfa->accept, dfa->states);
@@ -360,7 +376,7 @@ tn_status tn_library_diff_rank(const tn_library_diff *diff, tn_diff_part part, c
     if (!own)
         return tn_fail_memory(error);
     for (size_t i = 0; i < length; i++)
-        own[i] = side ? diff->map[trays[i]] : trays[i];
+        own[i] = side ? tray_after(diff, trays[i]) : trays[i];
     bool there = tn_library_rank(diff->sides[side], own, length, rank);
     free(own);
     return there ? TN_OK : tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a plan of the difference is not in its library");

@@ -45,8 +45,12 @@ tn_status tn_library_diff_rank(const tn_library_diff *diff, tn_diff_part part, c
 size_t tn_library_diff_clauses(const tn_library_diff *diff);
 const tn_changed_clause *tn_library_diff_clause(const tn_library_diff *diff, size_t i);
 
-/* Which tray of `to` each tray of `from` is, by the names of fields and values: the caller frees *map. TN_INVALID
- * (E0508) where they do not have the same trays. */
+/* Have trays of one number the same values, by their places, in both schemas? */
+bool tn_same_trays(const tn_schema *a, const tn_schema *b);
+
+/* Which tray of `to` each tray of `from` is, by the names of fields and values: the caller frees *map. NULL where trays
+ * are not listed: each is the one of its number. TN_INVALID (E0508) where they do not have the same trays; TN_LIMIT
+ * (E0803) where trays are not listed and fields or values come in another order. */
 tn_status tn_tray_map(const tn_schema *from, const tn_schema *to, tn_tray **map, tn_error *error);
 
 /* Which field of `to` each field of `from` is ([from->field_count]), and which of that field's values each value is

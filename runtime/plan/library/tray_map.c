@@ -109,14 +109,55 @@ static tn_status map_one_way(const tn_schema *from, const tn_schema *to, tn_tray
     return status;
 }
 
+/* ---- trays that are not listed */
+
+bool tn_same_trays(const tn_schema *a, const tn_schema *b)
+{
+    if (a->tray_count != b->tray_count || a->field_count != b->field_count || !a->legal != !b->legal)
+        return false;
+    if (!a->legal)
+        return memcmp(a->tray_values, b->tray_values, (size_t)a->tray_count * a->field_count) == 0;
+    const tn_interner *one = &a->legal->nodes, *other = &b->legal->nodes; /* equal trays, equal nodes */
+    return one->words_used == other->words_used &&
+           memcmp(one->words, other->words, one->words_used * sizeof *one->words) == 0;
+}
+
+/* Are the fields and values of both in one order? *same: they are. TN_INVALID where one has others. */
+static tn_status compare_order(const tn_schema *from, const tn_schema *to, bool *same, tn_error *error)
+{
+    uint32_t *fields = calloc((size_t)from->field_count + 1, sizeof *fields);
+    uint8_t *values = calloc((size_t)from->value_count + 1, 1);
+    tn_status status = fields && values ? tn_field_map(from, to, fields, values, error) : tn_fail_memory(error);
+    for (uint32_t f = 0; status == TN_OK && f < from->field_count; f++) {
+        *same = *same && fields[f] == f;
+        for (uint32_t v = 0; v < from->fields[f].value_count; v++)
+            *same = *same && values[from->value_start[f] + v] == v;
+    }
+    free(fields);
+    free(values);
+    return status;
+}
+
+/* Only trays of the same numbers are compared. */
+static tn_status check_unlisted(const tn_schema *from, const tn_schema *to, tn_error *error)
+{
+    bool same = true;
+    tn_status status = compare_order(from, to, &same, error);
+    if (status == TN_OK)
+        status = compare_order(to, from, &same, error);
+    if (status != TN_OK)
+        return status;
+    if (!same)
+        return tn_schema_listed(from->legal ? from : to, "comparing libraries whose fields have another order goes",
+                                error);
+    return tn_same_trays(from, to) ? TN_OK : differ(error, "only one allows some of the trays");
+}
+
 tn_status tn_tray_map(const tn_schema *from, const tn_schema *to, tn_tray **out, tn_error *error)
 {
-    static const char what[] = "comparing libraries goes";
-    tn_status listed = tn_schema_listed(from, what, error);
-    if (listed == TN_OK)
-        listed = tn_schema_listed(to, what, error);
-    if (listed != TN_OK)
-        return listed;
+    *out = NULL;
+    if (from->legal || to->legal)
+        return check_unlisted(from, to, error);
     tn_tray *map = calloc((size_t)from->tray_count + 1, sizeof *map);
     tn_tray *back = calloc((size_t)to->tray_count + 1, sizeof *back);
     tn_status status = map && back ? map_one_way(from, to, map, error) : tn_fail_memory(error);

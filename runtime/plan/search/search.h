@@ -104,7 +104,7 @@ typedef struct tn_search_other {
     tn_plan_search *search;
     const uint32_t *fields;
     const uint8_t *values; /* of a field's value, in the schema's order: which of the other field's */
-    const tn_tray *trays;
+    const tn_tray *trays; /* NULL: the same */
 } tn_search_other;
 
 /* Only plans that the other library does not keep. */

@@ -31,7 +31,7 @@ tn_status tn_search_other_keeps(tn_plan_search *search, const tn_search_other *o
     if (!mapped)
         return tn_fail_memory(error);
     for (uint32_t k = 0; k < trays; k++)
-        mapped[k] = other->trays[search->plan[k]];
+        mapped[k] = other->trays ? other->trays[search->plan[k]] : search->plan[k];
     tn_status status = tn_plan_search_keeps(other->search, mapped, trays, keeps, error);
     free(mapped);
     return status;

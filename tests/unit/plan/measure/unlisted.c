@@ -9,6 +9,7 @@
 
 #include "driver/open/open.h"
 #include "runtime/base/buffer.h"
+#include "runtime/plan/library/diff.h"
 #include "runtime/plan/library/library.h"
 #include "runtime/plan/match/rules.h"
 #include "runtime/plan/match/vm.h"
@@ -156,14 +157,14 @@ static void put_file(writing *w)
     PUT(")\nlibrary L { trays %u..%u", shortest, LONGEST);
     for (uint32_t i = 0; i < rules; i++)
         PUT(" %s r%u", below(w, 3) ? "prune" : "require", i);
-    PUT(" }\n");
+    PUT(" }\nlibrary M { trays 0..2 prune r%u }\n", rules - 1);
 }
 
 /* ---- one file, opened one way */
 
 typedef struct opened {
     tn_schema *schema;
-    tn_library *library;
+    tn_library *library, *other;
     tn_weighed *weighed;
 } opened;
 
@@ -173,6 +174,8 @@ static bool make(opened *o, const tn_module *module, uint64_t max_listed)
     tn_error error;
     test_ok(tn_schema_new(module, 0, max_listed, &o->schema, &error), &error);
     tn_status status = tn_library_new(o->schema, 0, NULL, &o->library, &error);
+    if (status == TN_OK)
+        status = tn_library_new(o->schema, 1, NULL, &o->other, &error);
     if (status == TN_OK)
         status = tn_weighed_new(o->library, measures, 2, &o->weighed, &error);
     if (status != TN_LIMIT)
@@ -184,6 +187,7 @@ static void clear(opened *o)
 {
     tn_weighed_free(o->weighed);
     tn_library_free(o->library);
+    tn_library_free(o->other);
     tn_schema_free(o->schema);
 }
 
@@ -361,6 +365,43 @@ static void same_matches(const opened *a, const opened *b, test_random *random)
     tn_rules_free(rules);
 }
 
+/* What one library keeps and the other does not. */
+static void same_differences(const opened *a, const opened *b)
+{
+    tn_library_diff *one, *other;
+    mpz_t plans, those;
+    tn_error error;
+    mpz_inits(plans, those, NULL);
+    test_ok(tn_library_diff_new(a->library, a->other, 0, NULL, &one, &error), &error);
+    test_ok(tn_library_diff_new(b->library, b->other, 0, NULL, &other, &error), &error);
+    for (int part = 0; part < TN_DIFF_PARTS; part++) {
+        const tn_library *mine = tn_library_diff_part(one, part), *its = tn_library_diff_part(other, part);
+        tn_tray trays[LONGEST], same[LONGEST];
+        uint32_t length, too;
+        tn_library_kept(mine, TN_ALL_LENGTHS, plans);
+        tn_library_kept(its, TN_ALL_LENGTHS, those);
+        assert_int_equal(mpz_cmp(plans, those), 0);
+        if (mpz_sgn(plans) == 0)
+            continue;
+        mpz_sub_ui(plans, plans, 1); /* the last */
+        assert_true(tn_library_unrank(mine, plans, trays, &length) && tn_library_unrank(its, plans, same, &too));
+        assert_int_equal(length, too);
+        assert_memory_equal(trays, same, length * sizeof *trays);
+        test_ok(tn_library_diff_rank(one, part, trays, length, plans, &error), &error);
+        test_ok(tn_library_diff_rank(other, part, trays, length, those, &error), &error);
+        assert_int_equal(mpz_cmp(plans, those), 0);
+    }
+    assert_int_equal(tn_library_diff_clauses(one), tn_library_diff_clauses(other));
+    for (size_t i = 0; i < tn_library_diff_clauses(one); i++) {
+        const tn_changed_clause *c = tn_library_diff_clause(one, i), *d = tn_library_diff_clause(other, i);
+        assert_int_equal(mpz_cmp(c->removes, d->removes), 0);
+        assert_int_equal(mpz_cmp(c->adds, d->adds), 0);
+    }
+    tn_library_diff_free(one);
+    tn_library_diff_free(other);
+    mpz_clears(plans, those, NULL);
+}
+
 /* The hash of a library whose trays are not listed is its own, and of the plans, not of the rules' wording. */
 static void check_hash(const opened *a, const opened *b)
 {
@@ -389,6 +430,7 @@ static void test_both_ways(void **state)
             same_measures(&a, &b);
             same_best(&a, &b, seed % 2);
             same_front(&a, &b);
+            same_differences(&a, &b);
             same_matches(&a, &b, &w.random);
             check_hash(&a, &b);
             made++;
