@@ -9,7 +9,7 @@ SECONDS ?= 600
 FIRST ?= $(shell date +%s)
 TEST = ctest --test-dir build --output-on-failure --timeout 1200 -j $(TEST_JOBS)
 
-.PHONY: help packages build demo check check-long check-parts check-editor check-models check-report check-studio check-studio-quick check-scale check-sanitizers check-arm check-arm-syntax wasm check-wasm python check-python site check-site lint package check-package bench bench-threads bench-place bench-scale bench-studio bench-python fuzz search install uninstall clean
+.PHONY: help packages build demo check check-long check-parts check-editor check-ifc check-models check-report check-studio check-studio-quick check-scale check-sanitizers check-arm check-arm-syntax wasm check-wasm python check-python site check-site lint package check-package bench bench-threads bench-place bench-scale bench-studio bench-python fuzz search install uninstall clean
 
 help:
 	@echo 'make demo        build tartan, count a plan library, draw a sheet of it (into demo/)'
@@ -19,6 +19,7 @@ help:
 	@echo 'make package     make a Debian package (into build-package/)'
 	@echo 'make check-package  try that on a clean root (as root, with debootstrap)'
 	@echo 'make check-editor  test the language server and the VS Code extension (needs node and npm)'
+	@echo 'make check-ifc   hold building models to the rules of IFC4 and to web-ifc and IfcOpenShell (node and npm)'
 	@echo 'make check-models  hold models of houses to the Khronos validator and to Blender, where these are installed (npm)'
 	@echo 'make check-report  test the report page in a browser without a screen (chromium)'
 	@echo 'make check-studio  test the studio in a browser, and the playground if it is made (chromium, node and npm)'
@@ -77,6 +78,10 @@ check-editor: build
 
 check-models: build
 	@tools/check-models build/tartan
+
+# IFC_TABLES: a folder with buildingSMART's tables of sets of properties and quantities.
+check-ifc: build
+	@tools/check-ifc build/tartan $(IFC_TABLES)
 
 check-report: build
 	@tools/check-report build/tartan

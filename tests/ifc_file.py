@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Reads IFC4 files as STEP, and holds them to rules of the standard and of buildingSMART: ifc_file.py FILE.ifc ... ; with --faults, asks of
-one file whether faults that are put into it are found; with --kept OLD NEW, says which parts do not keep their identifiers.
+one file whether faults that are put into it are found; with --kept OLD NEW, says which parts do not keep their identifiers; with --tables FOLDER, holds the tables of sets to buildingSMART's.
 
 Each instance has to have as many attributes as IFC4 gives its entity, of their types (ISO 16739-1:2018, inherited ones included), each
 reference has to lead to an instance of an entity that may stand there, and identifiers are unique. Then come rules that buildingSMART's
 validation service has, by their numbers there. The tables have what houses use."""
+import ast
+import csv
 import re
 import sys
 from collections import Counter
@@ -481,7 +483,23 @@ def lost(old, new):
     return " ".join(sorted(first[n] for n in first.keys() - second.keys())) if same else "identifiers are of other entities"
 
 
+def check_tables(folder):
+    """Sets of properties and quantities here are some of those in buildingSMART's tables."""
+    csv.field_size_limit(10**9)
+    for name, own, kind_of in (("pset", PROPERTIES, lambda d: str(d["data_type"]["instance"]).upper()), ("qto", QUANTITIES, lambda d: d["property_type"].upper().replace("IFCQUANTITY", ""))):
+        with open(f"{folder}/{name}_definitions.csv", newline="", encoding="utf-8") as file:
+            theirs = {row["Name"]: row for row in csv.DictReader(file)}
+        for set_name, (entity, values) in own.items():
+            row = theirs.get(set_name)
+            kinds = {d["property_name"]: kind_of(d) for d in ast.literal_eval(row["property_definitions"])} if row else {}
+            applies = row and entity in (applicable.upper() for applicable in ast.literal_eval(row["applicable_entities"]))
+            check(f"{set_name} is of {entity}, and has {values}, not {kinds}", applies and all(kinds.get(value) == kind for value, kind in values.items()))
+
+
 def main():
+    if sys.argv[1] == "--tables":
+        check_tables(sys.argv[2])
+        sys.exit("\n".join(findings) or print("the tables agree"))
     if sys.argv[1] == "--kept":
         print(lost(sys.argv[2], sys.argv[3]))
         return

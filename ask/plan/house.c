@@ -252,38 +252,79 @@ static tn_status kind_of(const char *word, tn_house_file *kind, tn_error *error)
     return TN_INVALID;
 }
 
-/* What only drawings have and is asked for; NULL if there is none. A title is for building models, too. */
-static const char *asked_of_drawings(const tn_house_request *request)
+/* Something that is asked for, and of which of the files it is. */
+typedef struct asked_of {
+    const char *name;
+    bool given, drawings, models;
+} asked_of;
+
+/* What no file has and is asked for; false if there is none. */
+static bool asked_in_vain(const tn_house_request *request, bool draws, bool models, asked_of *found)
 {
-    const struct {
-        const char *name;
-        bool given;
-    } all[] = {{"view", request->views.count > 0}, {"cut", request->cut != NULL},
-               {"furnish", request->bare},         {"scale", request->has_scale},
-               {"azimuth", request->has_azimuth},  {"elevation", request->has_elevation},
-               {"dpi", request->has_dpi},          {"profile", request->profile > 0},
-               {"project", request->project},      {"date", request->date},
-               {"revision", request->revision},    {"north", request->has_north}};
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
-        if (all[i].given)
-            return all[i].name;
-    return NULL;
+    const asked_of all[] = {{"view", request->views.count > 0, true, false},
+                            {"cut", request->cut != NULL, true, false},
+                            {"furnish", request->bare, true, false},
+                            {"scale", request->has_scale, true, false},
+                            {"azimuth", request->has_azimuth, true, false},
+                            {"elevation", request->has_elevation, true, false},
+                            {"dpi", request->has_dpi, true, false},
+                            {"profile", request->profile > 0, true, false},
+                            {"revision", request->revision != NULL, true, false},
+                            {"project", request->project != NULL, true, true},
+                            {"date", request->date != NULL, true, true},
+                            {"north", request->has_north, true, true},
+                            {"author", request->author != NULL, false, true},
+                            {"latitude", request->has_latitude, false, true},
+                            {"longitude", request->has_longitude, false, true}};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        *found = all[i];
+        if (found->given && !(found->drawings && draws) && !(found->models && models))
+            return true;
+    }
+    return false;
+}
+
+static tn_status refuse_in_vain(tn_session *session, const asked_of *asked)
+{
+    if (!asked->models)
+        return tn_session_refuse(session, "add `-o NAME.svg`, or .pdf, .png or .dxf",
+                                 "--%s is about drawings, and no file is one", asked->name);
+    if (!asked->drawings)
+        return tn_session_refuse(session, "add `-o NAME.ifc`", "--%s is about building models, and no file is one",
+                                 asked->name);
+    return tn_session_refuse(session, "add `-o NAME.svg`, or .pdf, .png, .dxf or .ifc",
+                             "--%s is about drawings and building models, and no file is one", asked->name);
+}
+
+/* Dates and places that a building model can say. */
+static tn_status check_model(tn_session *session, const tn_house_request *request)
+{
+    char stamp[TN_TIME_STAMP_TEXT];
+    if (request->date && !tn_house_time_stamp(request->date, stamp))
+        return tn_session_refuse(session, "write it as 2026-05-12 or 2026-05-12T14:30:00",
+                                 "`%.60s` is no date as IFC files have them", request->date);
+    if (request->has_latitude && !(request->latitude >= -90 && request->latitude <= 90))
+        return tn_session_refuse(session, NULL, "a latitude is from -90 to 90 degrees, not %g", request->latitude);
+    if (request->has_longitude && !(request->longitude >= -180 && request->longitude <= 180))
+        return tn_session_refuse(session, NULL, "a longitude is from -180 to 180 degrees, not %g", request->longitude);
+    return TN_OK;
 }
 
 static tn_status check_files(tn_session *session, const tn_house_request *request)
 {
-    bool draws = false;
+    bool draws = false, models = false;
     tn_house_file kind;
     tn_error error;
+    asked_of found;
     for (size_t i = 0; i < request->files.count; i++) {
         if (kind_of(request->files.items[i], &kind, &error) != TN_OK)
             return tn_session_fail(session, &error);
         draws |= tn_house_file_draws(kind);
+        models |= kind == TN_HOUSE_AS_IFC;
     }
-    const char *name = draws ? NULL : asked_of_drawings(request);
-    return name ? tn_session_refuse(session, "add `-o NAME.svg`, or .pdf, .png or .dxf",
-                                    "--%s is about drawings, and no file is one", name)
-                : TN_OK;
+    if (asked_in_vain(request, draws, models, &found))
+        return refuse_in_vain(session, &found);
+    return models ? check_model(session, request) : TN_OK;
 }
 
 /* ---- written */
@@ -327,6 +368,9 @@ static tn_house_filed filed_of(const building *b)
                                      .date = request->date,
                                      .revision = request->revision,
                                      .north = request->has_north ? &request->north : NULL},
+                            .author = request->author,
+                            .latitude = request->has_latitude ? &request->latitude : NULL,
+                            .longitude = request->has_longitude ? &request->longitude : NULL,
                             .scale = (uint32_t)request->scale,
                             .dpi = (uint32_t)request->dpi,
                             .profile = (tn_profile)request->profile,

@@ -11,12 +11,12 @@
 typedef struct house_settings {
     tn_settings common;
     tn_option_list files, views;
-    const char *form, *library, *cut, *title, *project, *date, *revision;
+    const char *form, *library, *cut, *title, *project, *date, *revision, *author;
     int furnish; /* 1: no */
     tn_option_number scale, dpi, max_length, max_states;
     int profile;
     bool measures;
-    tn_option_real azimuth, elevation, north;
+    tn_option_real azimuth, elevation, north, latitude, longitude;
 } house_settings;
 
 static const house_settings *settings_of(const tn_job *job)
@@ -212,6 +212,11 @@ static void ask(tn_job *job, const house_files *files)
                                       .has_north = s->north.given,
                                       .north = s->north.value,
                                       .mtl = {files->mtls, files->mtl_count},
+                                      .author = s->author,
+                                      .has_latitude = s->latitude.given,
+                                      .latitude = s->latitude.value,
+                                      .has_longitude = s->longitude.given,
+                                      .longitude = s->longitude.value,
                                       .has_dpi = s->dpi.given,
                                       .dpi = s->dpi.value,
                                       .profile = (unsigned)s->profile,
@@ -258,11 +263,15 @@ static const tn_option options[] = {
     REAL("azimuth", 0, "DEGREES", azimuth, "where the axonometric view is seen from, about z (default 60)"),
     REAL("elevation", 0, "DEGREES", elevation, "and how far above the ground (default 30)"),
     TEXT("title", 0, "TEXT", title, "the title of a picture or of an IFC or GLB file; by default the number of the house"),
-    TEXT("project", 0, "TEXT", project, "what a drawing is for, in its title block"),
-    TEXT("date", 0, "TEXT", date, "when a drawing is from, in its title block; none unless given"),
+    TEXT("project", 0, "TEXT", project, "what a drawing is for, in its title block; in an IFC file the project"),
+    TEXT("date", 0, "TEXT", date, "when a drawing is from, in its title block; of an IFC file the time stamp, as 2026-05-12 or 2026-05-12T14:30:00; none unless given"),
     TEXT("revision", 0, "TEXT", revision, "which state of a drawing this is, in its title block"),
     REAL("north", 0, "DEGREES", north,
-         "where north is on plans, clockwise from above, which is the back of the house: plans have an arrow"),
+         "where north is on plans, clockwise from above, which is the back of the house: plans have an arrow, and IFC files "
+         "true north"),
+    TEXT("author", 0, "TEXT", author, "who an IFC file is by"),
+    REAL("latitude", 0, "DEGREES", latitude, "where the site is in an IFC file, to the north"),
+    REAL("longitude", 0, "DEGREES", longitude, "and to the east"),
     NUMBER("dpi", 0, "N", dpi, 10, 1200, "resolution of a .png (default 150)"),
     CHOICE("profile", 0, "WORD", profile, "auto|iso|us",
            "the names of layers of a .dxf: by ISO 13567 (iso) or by the US National CAD Standard (us); by default the "

@@ -146,14 +146,41 @@ static tn_status draw(const tn_house_filed *filed, tn_house_drawing *drawing, tn
     return status;
 }
 
+bool tn_house_time_stamp(const char *date, char stamp[TN_TIME_STAMP_TEXT])
+{
+    static const char form[] = "0000-00-00T00:00:00", day_only[] = "0000-00-00";
+    static const int days[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+    size_t size = strlen(date);
+    int year, month, day, hour, minute, second;
+    if (size != sizeof form - 1 && size != sizeof day_only - 1)
+        return false;
+    memcpy(stamp, form, sizeof form);
+    for (size_t i = 0; i < size; i++) {
+        if (form[i] == '0' ? date[i] < '0' || date[i] > '9' : date[i] != form[i])
+            return false;
+        stamp[i] = date[i];
+    }
+    sscanf(stamp, "%4d-%2d-%2dT%2d:%2d:%2d", &year, &month, &day, &hour, &minute, &second);
+    bool leap = month == 2 && (year % 400 == 0 || (year % 4 == 0 && year % 100 != 0));
+    return month >= 1 && month <= 12 && day >= 1 && day <= days[month - 1] + leap && hour < 24 && minute < 60 &&
+           second < 60;
+}
+
 /* Identifiers do not depend on which house of a library it is. */
 static tn_status write_model(const tn_house_filed *filed, FILE *out, tn_error *error)
 {
     const tn_house_form *form = filed->house->form;
     const char *project = filed->says.project, *form_name = tn_text(form->module, form->record->name);
+    char stamp[TN_TIME_STAMP_TEXT];
+    bool dated = filed->says.date && tn_house_time_stamp(filed->says.date, stamp);
     const tn_ifc_said said = {.name = title_of(filed),
                               .project = project ? project : title_of(filed),
-                              .seed = project ? project : form_name};
+                              .seed = project ? project : form_name,
+                              .date = dated ? stamp : NULL,
+                              .author = filed->author,
+                              .north = filed->says.north,
+                              .latitude = filed->latitude,
+                              .longitude = filed->longitude};
     return tn_house_write_ifc(filed->house, filed->solids, &said, out, error);
 }
 

@@ -48,11 +48,17 @@ typedef struct tn_house_filed {
     const char *title; /* of sheets and of models; NULL: what the form says of itself */
     const char *mtl;   /* of .obj: the file that has its materials; NULL: house.mtl */
     tn_views views;
-    tn_drawing_says says; /* of drawings; the project of the building model, too */
+    tn_drawing_says says; /* of drawings; of the building model the project, the date (tn_house_time_stamp) and north */
+    const char *author;   /* of the building model; or NULL */
+    const double *latitude, *longitude;
     uint32_t scale, dpi; /* of drawings, 1:scale; 0: as it suits, 150 */
     tn_profile profile;  /* of drawings: whose names the layers of a DXF have */
     tn_watch *watch;     /* or NULL */
 } tn_house_filed;
+
+/* The time stamp of a building model, by ISO 8601, of such a date, with or without the time of day; false: it is none. */
+#define TN_TIME_STAMP_TEXT 20
+bool tn_house_time_stamp(const char *date, char stamp[TN_TIME_STAMP_TEXT]);
 
 /* Writes it to the stream. TN_INVALID (E0904) for wrong views; what fails with the stream, ferror() tells. */
 tn_status tn_house_file_write(const tn_house_filed *filed, tn_house_file kind, FILE *out, tn_error *error);

@@ -22,7 +22,7 @@ is 'its arrow' "$(tr -d '\r' <"$scratch/said.dxf" | grep -A12 '^INSERT$' | grep 
 is 'one view says it' "$(grep -c '>Ten houses, 2026-11-30, revision B<' "$scratch/said.svg")" 1
 is 'nothing is said by itself' "$(grep -c '>\(date.*\|revision.*\|N\)<' "$scratch/one.svg")" 0
 "$TARTAN" house row-houses '#2:9001' --north 90 -o "$scratch/said.json" 2>"$scratch/out" && fail 'north of no drawing'
-is 'north of no drawing' "$(sed -n 1p "$scratch/out")" 'error[E0904]: --north is about drawings, and no file is one'
+is 'north of no drawing' "$(sed -n 1p "$scratch/out")" 'error[E0904]: --north is about drawings and building models, and no file is one'
 cottage="14' none room:14' porch:5' | 10' none room:14' porch:5' | 10' lean-to:7' room:14' none ; 1 2 shed(back,4:12) 1 ; living bedroom porch-deck | stair stair porch-deck | bath kitchen bedroom"
 # The plan of a roof: of each plane its slope, and where two meet: a ridge, and four hips at 45 degrees.
 sed "s/gable(9:12)/gable(9:12) | hip(9:12, eaves 1'6\")/" "$here/../../stdlib/cottage.plan" >"$scratch/hip.plan"

@@ -83,6 +83,28 @@ is 'one of several windows less' "$($python "$here/../ifc_file.py" --kept "$scra
 made "$files/cabins.plan" "$two" named --project 'another house'
 is 'another project has other identifiers' "$($python "$here/../ifc_file.py" --kept "$scratch/two/house.ifc" "$scratch/named/house.ifc" | wc -w)" \
     "$(grep -oE "IFC[A-Z]+\('[0-3][0-9A-Za-z_\$]{21}'" "$scratch/two/house.ifc" | wc -l)"
+# What an office says of a model.
+"$TARTAN" house "$files/cabins.plan" "$hut" --date 2028-02-29 --author "Zoë O'Neil" --latitude 44.5 --longitude -64.0001 --north 90 --project 'the lake' \
+    --title cabin -o "$scratch/said.ifc"
+is 'a model with more of it' "$($python "$here/../ifc_file.py" "$scratch/said.ifc")" fine
+says() {
+    grep -qF "$2" "$scratch/said.ifc" || fail "the model says no $1: $2"
+}
+says 'date and author' "FILE_NAME('cabin','2028-02-29T00:00:00',('Zo\\X2\\00EB\\X0\\ O''Neil')"
+says place '.ELEMENT.,(44,30,0,0),(-64,0,0,-360000),'
+says north '=IFCDIRECTION((-1.,0.))'
+says project "\$,'the lake',"
+says 'name of the house' "\$,'cabin',"
+refused() {
+    is "$1" "$("$TARTAN" house "$files/cabins.plan" "$hut" "${@:3}" 2>&1 | sed -n 's/^error\[E0904\]: //p')" "$2"
+}
+refused 'a date of drawings' '`12 May` is no date as IFC files have them' --date '12 May' -o "$scratch/none.ifc"
+refused 'a day that is not' '`2027-02-29` is no date as IFC files have them' --date 2027-02-29 -o "$scratch/none.ifc"
+refused 'a place that is not' 'a latitude is from -90 to 90 degrees, not 91' --latitude 91 -o "$scratch/none.ifc"
+refused 'a place without a model' '--longitude is about building models, and no file is one' --longitude 3 -o "$scratch/none.svg"
+refused 'north without either' '--north is about drawings and building models, and no file is one' --north 3 -o "$scratch/none.obj"
+"$TARTAN" house "$files/cabins.plan" "$hut" --date '12 May' -o "$scratch/none.svg" || fail 'drawings have dates as they are written'
+
 cmp "$scratch/walk/house.ifc" "$scratch/again/house.ifc" || fail 'two models of one house differ'
 cmp "$scratch/walk/house.dxf" "$scratch/again/house.dxf" || fail 'two drawings of one house differ'
 is 'a wrong view leaves no drawing' "$("$TARTAN" house "$files/cabins.plan" "$hut" --view plan:attic -o "$scratch/none.dxf" 2>/dev/null || ls "$scratch/none.dxf" 2>&1 | wc -l)" 1
