@@ -19,7 +19,7 @@ from collections import Counter, defaultdict
 from fractions import Fraction as F
 
 import house_prisms
-from ifc_file import PRODUCTS, box_of, boxes_of, check, check_file, findings, in_millimetres, is_in_feet, numbers_of, of_kind, placed, points_of, read, references, related, sets_of, solids_of, spelt, volume_of
+from ifc_file import PRODUCTS, box_of, boxes_of, check, check_file, findings, in_millimetres, is_in_feet, numbers_of, of_kind, placed, points_of, read, references, related, rings_of, sets_of, solids_of, spelt, volume_of
 
 
 def has_leaf(kind):
@@ -119,6 +119,7 @@ def check_quantities(made, house):
     voids = defaultdict(list)
     for wall, opening in related(made, "IFCRELVOIDSELEMENT", 4, 5):
         voids[wall].append(opening)
+    decks = [s for s in house["solids"] if s["kind"] in ("deck", "roofdeck")]
     near = lambda said, is_so: abs(F(said) - is_so) <= F(1, 10**6) + is_so / 10**6
     for product, name, values in sets_of(made, "IFCELEMENTQUANTITY"):
         args = made[product][1]
@@ -135,8 +136,16 @@ def check_quantities(made, house):
             check("sizes of a wall", [F(values[n]) for n in ("Length", "Width", "Height")] == sizes)
             check("net side of a wall", near(F(values["NetSideArea"]) * sizes[1] / 1000, F(values["NetVolume"])))
         if made[product][0] == "IFCSLAB" and made[product][1][8] in (".FLOOR.", ".BASESLAB."):
-            area = sum((high[0] - low[0]) * (high[1] - low[1]) for low, high in boxes_of(made, product))
-            check("area of a deck", near(values["NetArea"], area / 10**6))
+            boxes = list(boxes_of(made, product))
+            solid = [s for s in decks if F(s["box"][5], 10**6) == boxes[0][1][2]]
+            check("area of a deck", near(values["NetArea"], sum((high[0] - low[0]) * (high[1] - low[1]) for low, high in boxes) / 10**6))
+            meets = lambda s, low, high: math.prod(max(min(high[k], F(s["box"][2 * k + 1], 10**6)) - max(low[k], F(s["box"][2 * k], 10**6)), 0) for k in range(3))
+            check("a deck is where its rectangles are", all(sum(meets(s, low, high) for s in solid) == math.prod(h - l for l, h in zip(low, high)) for low, high in boxes))
+            profiles = [references(made[n][1][0])[0] for n in solids_of(made, product)]
+            if all(made[n][0] != "IFCRECTANGLEPROFILEDEF" for n in profiles):
+                around = sum(abs(a[0] - b[0]) + abs(a[1] - b[1]) for n in profiles for ring in rings_of(made, n)[:1] for a, b in zip(ring, ring[1:] + ring[:1]))
+                check("its outline", near(values["Perimeter"], around))
+                check("of one hole at most", all(len(rings_of(made, n)) <= 2 for n in profiles))
     said = Counter(round(float(F(values["NetFloorArea"])), 4) for _, name, values in sets_of(made, "IFCELEMENTQUANTITY") if name == "Qto_SpaceBaseQuantities")
     check("net areas of rooms", said == Counter(round(float(F(r["net"]) / 10**18), 4) for r in house["rooms"]))
     slopes = [F(values["NetArea"]) for product, _, values in sets_of(made, "IFCELEMENTQUANTITY") if made[product][1][8] == ".ROOF."]
@@ -231,9 +240,11 @@ def check_boundaries(made, house):
         bounded[space].add(element)
         spans = list(boxes_of(made, element))
         fills = made[element][0] in ("IFCDOOR", "IFCWINDOW")
-        on = [b for b in spans if all(b[0][k] <= low[k] and high[k] <= b[1][k] for k in range(3) if k != axis)]
-        check(f"a boundary is on its {made[element][0]}", low[axis] == high[axis] and any(fills or low[axis] == (b[0] if out[axis] > 0 else b[1])[axis] for b in on))
         sides = [k for k in range(3) if k != axis]
+        size = lambda least, most: max(most[sides[0]] - least[sides[0]], 0) * max(most[sides[1]] - least[sides[1]], 0)
+        on = [b for b in spans if fills or low[axis] == (b[0] if out[axis] > 0 else b[1])[axis]]
+        covered = sum(size([max(c) for c in zip(low, b[0])], [min(c) for c in zip(high, b[1])]) for b in on)
+        check(f"a boundary is on its {made[element][0]}", low[axis] == high[axis] and covered == size(low, high) > 0)
         if made[element][0] == "IFCSLAB" and out[2] < 0:
             floors[space] += (high[sides[0]] - low[sides[0]]) * (high[sides[1]] - low[sides[1]])
     check("all rooms are bounded", set(bounded) == set(of_kind(made, "IFCSPACE")))

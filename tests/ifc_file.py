@@ -17,6 +17,7 @@ from fractions import Fraction as F
 ROOT, PRODUCT = "Snss", "Snsssnn"
 ELEMENT, SPATIAL, TYPE = PRODUCT + "s", PRODUCT + "se", ROOT + "saass"
 TYPES = {
+    "IFCARBITRARYCLOSEDPROFILEDEF": "EsN", "IFCARBITRARYPROFILEDEFWITHVOIDS": "EsNA", "IFCPOLYLINE": "A",
     "IFCAXIS2PLACEMENT2D": "Nn", "IFCAXIS2PLACEMENT3D": "Nnn", "IFCBUILDING": SPATIAL + "rrn",
     "IFCBUILDINGSTOREY": SPATIAL + "r", "IFCCARTESIANPOINT": "V", "IFCCARTESIANPOINTLIST2D": "L", "IFCCARTESIANPOINTLIST3D": "L", "IFCCOLOURRGB": "sRRR",
     "IFCCOLUMN": ELEMENT + "e", "IFCBEAM": ELEMENT + "e", "IFCCONNECTIONSURFACEGEOMETRY": "Nn", "IFCCONVERSIONBASEDUNIT": "NESN", "IFCCURVEBOUNDEDPLANE": "NNO",
@@ -62,7 +63,8 @@ SOLIDS = ["IFCEXTRUDEDAREASOLID", "IFCPOLYGONALFACESET"]
 # attribute -> what it may refer to
 REFERENCES = {
     ("IFCLOCALPLACEMENT", 0): ["IFCLOCALPLACEMENT"], ("IFCLOCALPLACEMENT", 1): ["IFCAXIS2PLACEMENT3D"],
-    ("IFCEXTRUDEDAREASOLID", 0): ["IFCRECTANGLEPROFILEDEF"], ("IFCEXTRUDEDAREASOLID", 1): ["IFCAXIS2PLACEMENT3D"], ("IFCEXTRUDEDAREASOLID", 2): ["IFCDIRECTION"],
+    ("IFCEXTRUDEDAREASOLID", 0): ["IFCRECTANGLEPROFILEDEF", "IFCARBITRARYCLOSEDPROFILEDEF", "IFCARBITRARYPROFILEDEFWITHVOIDS"],
+    ("IFCARBITRARYCLOSEDPROFILEDEF", 2): ["IFCPOLYLINE"], ("IFCARBITRARYPROFILEDEFWITHVOIDS", 2): ["IFCPOLYLINE"], ("IFCARBITRARYPROFILEDEFWITHVOIDS", 3): ["IFCPOLYLINE"], ("IFCEXTRUDEDAREASOLID", 1): ["IFCAXIS2PLACEMENT3D"], ("IFCEXTRUDEDAREASOLID", 2): ["IFCDIRECTION"],
     ("IFCPOLYGONALFACESET", 0): ["IFCCARTESIANPOINTLIST3D"], ("IFCPOLYGONALFACESET", 2): ["IFCINDEXEDPOLYGONALFACE"],
     ("IFCSHAPEREPRESENTATION", 0): ["IFCGEOMETRICREPRESENTATIONSUBCONTEXT"],
     ("IFCSHAPEREPRESENTATION", 3): SOLIDS + ["IFCINDEXEDPOLYCURVE"], ("IFCPRODUCTDEFINITIONSHAPE", 2): ["IFCSHAPEREPRESENTATION"],
@@ -240,17 +242,45 @@ def solids_of(made, product):
     return [solid for representation in references(shape[1][2]) for solid in references(made[representation][1][3]) if made[solid][0] in SOLIDS]
 
 
+def rings_of(made, profile):
+    """The outline of a profile, and of its holes: the corners of each."""
+    name, args = made[profile]
+    lines = [references(args[2])[0]] + (references(args[3]) if name == "IFCARBITRARYPROFILEDEFWITHVOIDS" else [])
+    return [[tuple(numbers_of(made, n)) for n in references(made[line][1][0])][:-1] for line in lines]
+
+
+def area_of(ring):
+    """Above 0 if its corners go counter-clockwise."""
+    return sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(ring, ring[1:] + ring[:1])) / 2
+
+
+def parts_of(ring, holes):
+    """Rectangles between all lines through corners of outlines along axes, of what is within: (x0, x1, y0, y1)."""
+    xs, ys = (sorted({corner[k] for corners in [ring] + holes for corner in corners}) for k in (0, 1))
+    inside = lambda corners, x, y: sum(a[0] == b[0] and a[0] > x and min(a[1], b[1]) < y < max(a[1], b[1]) for a, b in zip(corners, corners[1:] + corners[:1])) % 2
+    for x0, x1 in zip(xs, xs[1:]):
+        for y0, y1 in zip(ys, ys[1:]):
+            middle = (x0 + x1) / 2, (y0 + y1) / 2
+            if inside(ring, *middle) and not any(inside(hole, *middle) for hole in holes):
+                yield x0, x1, y0, y1
+
+
 def boxes_of(made, product):
-    """The boxes of a product in the house, of extruded rectangles: (low, high) of each."""
+    """The boxes of a product in the house, of extruded profiles along axes: (low, high) of each."""
     at, x, y = placed(made, references(made[product][1][5])[0])
     for number in solids_of(made, product):
         solid = made[number][1]
         profile = made[references(solid[0])[0]][1]
-        middle = numbers_of(made, references(made[references(profile[2])[0]][1][0])[0])
         foot = numbers_of(made, references(made[references(solid[1])[0]][1][0])[0])[2]
-        size = [F(profile[3]), F(profile[4])]
-        ends = [[at[k] + sum((middle[j] + (i - F(1, 2)) * size[j]) * (x, y)[j][k] for j in range(2)) + (k == 2) * (foot + i * F(solid[3])) for k in range(3)] for i in (0, 1)]
-        yield [min(pair) for pair in zip(*ends)], [max(pair) for pair in zip(*ends)]
+        if made[references(solid[0])[0]][0] == "IFCRECTANGLEPROFILEDEF":
+            middle, size = numbers_of(made, references(made[references(profile[2])[0]][1][0])[0]), [F(profile[3]), F(profile[4])]
+            parts = [(middle[0] - size[0] / 2, middle[0] + size[0] / 2, middle[1] - size[1] / 2, middle[1] + size[1] / 2)]
+        else:
+            ring, *holes = rings_of(made, references(solid[0])[0])
+            parts = parts_of(ring, holes)
+        for part in parts:
+            ends = [[at[k] + sum(part[2 * j + i] * (x, y)[j][k] for j in range(2)) + (k == 2) * (foot + i * F(solid[3])) for k in range(3)] for i in (0, 1)]
+            yield [min(pair) for pair in zip(*ends)], [max(pair) for pair in zip(*ends)]
 
 
 def box_of(made, product):
@@ -283,8 +313,13 @@ def volume_of(made, product):
             total += volume_of_faces(made, made[solid][1])
             continue
         profile, _, _, depth = made[solid][1]
-        _, args = made[references(profile)[0]]
-        area = F(args[3]) * F(args[4])
+        name, args = made[references(profile)[0]]
+        if name == "IFCRECTANGLEPROFILEDEF":
+            area = F(args[3]) * F(args[4])
+        else:
+            ring, *holes = rings_of(made, references(profile)[0])
+            check("outlines go counter-clockwise", all(area_of(corners) > 0 for corners in [ring] + holes))
+            area = area_of(ring) - sum(map(area_of, holes))
         check("a solid has a volume", area > 0 and F(depth) > 0)
         total += area * F(depth)
     return total
@@ -360,7 +395,7 @@ def check_structure(made):
 
 
 def check_shapes(made):
-    """GEM001 to GEM004, GEM112: representations; solids are closed and have a volume."""
+    """GEM001 to GEM004, GEM111, GEM112: representations; solids are closed and have a volume."""
     for product, (name, args) in made.items():
         if name not in PRODUCTS or args[6] == "$":
             continue
@@ -376,6 +411,9 @@ def check_shapes(made):
     for number in of_kind(made, "IFCINDEXEDPOLYCURVE"):
         points = points_of(made, references(made[number][1][0])[0])
         check("GEM112: points of a curve differ", all(a != b for a, b in zip(points, points[1:])))
+    for number in of_kind(made, "IFCPOLYLINE"):
+        points = [tuple(numbers_of(made, n)) for n in references(made[number][1][0])]
+        check("GEM111: corners of a line differ, but that it ends where it begins", points[0] == points[-1] and len(set(points)) == len(points) - 1)
     styled = [to for name, args in made.values() if name == "IFCSTYLEDITEM" for to in references(args[0])]
     check("what has a look has one", len(styled) == len(set(styled)))
     coloured = {solid for number, (name, _) in made.items() if name in ELEMENTS for solid in solids_of(made, number)}

@@ -1,17 +1,23 @@
 // Reads a building model by IfcPlusPlus, and says how many of each kind of product there are, and what they hold: ifc_read FILE.ifc
 //
 // A line for each kind: `IfcWall 12 34567890.000000000`, the volume in cubes of the file's unit, of all solids of their shapes.
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <string>
 
+#include <ifcpp/IFC4/include/IfcArbitraryClosedProfileDef.h>
+#include <ifcpp/IFC4/include/IfcArbitraryProfileDefWithVoids.h>
+#include <ifcpp/IFC4/include/IfcCartesianPoint.h>
 #include <ifcpp/IFC4/include/IfcCartesianPointList3D.h>
+#include <ifcpp/IFC4/include/IfcCurve.h>
 #include <ifcpp/IFC4/include/IfcExtrudedAreaSolid.h>
 #include <ifcpp/IFC4/include/IfcIndexedPolygonalFace.h>
 #include <ifcpp/IFC4/include/IfcLengthMeasure.h>
 #include <ifcpp/IFC4/include/IfcPolygonalFaceSet.h>
+#include <ifcpp/IFC4/include/IfcPolyline.h>
 #include <ifcpp/IFC4/include/IfcPositiveInteger.h>
 #include <ifcpp/IFC4/include/IfcPositiveLengthMeasure.h>
 #include <ifcpp/IFC4/include/IfcProduct.h>
@@ -22,8 +28,26 @@
 #include <ifcpp/model/BuildingModel.h>
 #include <ifcpp/reader/ReaderSTEP.h>
 
+static double area_of(const shared_ptr<IfcCurve> &curve)
+{
+    double twice = 0;
+    auto line = dynamic_pointer_cast<IfcPolyline>(curve);
+    for (size_t i = 0; line && i + 1 < line->m_Points.size(); i++) {
+        const auto &a = line->m_Points[i]->m_Coordinates, &b = line->m_Points[i + 1]->m_Coordinates;
+        twice += a[0]->m_value * b[1]->m_value - b[0]->m_value * a[1]->m_value;
+    }
+    return std::fabs(twice / 2);
+}
+
 static double area_of(const shared_ptr<IfcProfileDef> &profile)
 {
+    if (auto closed = dynamic_pointer_cast<IfcArbitraryClosedProfileDef>(profile)) {
+        double area = area_of(closed->m_OuterCurve);
+        if (auto pierced = dynamic_pointer_cast<IfcArbitraryProfileDefWithVoids>(profile))
+            for (const auto &hole : pierced->m_InnerCurves)
+                area -= area_of(hole);
+        return area;
+    }
     auto box = dynamic_pointer_cast<IfcRectangleProfileDef>(profile);
     return box ? box->m_XDim->m_value * box->m_YDim->m_value : 0;
 }

@@ -33,7 +33,7 @@ tn_status tn_house_model(const tn_house *house, const tn_solids *solids, const c
  * drawings have it, degrees clockwise from the back of the house. What may be NULL is left out then. */
 typedef struct tn_ifc_said {
     const char *name, *project, *seed;
-    const char *date, *author;                   /* or NULL; date: by ISO 8601, with the time of day */
+    const char *date, *author;                  /* or NULL; date: by ISO 8601, with the time of day */
     const double *north, *latitude, *longitude; /* or NULL; degrees */
 } tn_ifc_said;
 

@@ -55,8 +55,8 @@ static unsigned put_contexts(tn_stepfile *step, const double *north)
                                        tn_stepfile_real(-tn_cos(angle), 12).text);
         snprintf(true_north, sizeof true_north, "#%u", way);
     }
-    unsigned whole = tn_stepfile_add(step, "IFCGEOMETRICREPRESENTATIONCONTEXT($,'Model',3,1.E-6,#%u,%s)", step->axes,
-                                     true_north);
+    unsigned whole =
+        tn_stepfile_add(step, "IFCGEOMETRICREPRESENTATIONCONTEXT($,'Model',3,1.E-6,#%u,%s)", step->axes, true_north);
     step->context = put_context(step, "Body", whole, "MODEL_VIEW");
     step->axes_context = put_context(step, "Axis", whole, "GRAPH_VIEW");
     step->plan_context = put_context(step, "FootPrint", whole, "PLAN_VIEW");
@@ -75,8 +75,7 @@ static unsigned put_converted(tn_stepfile *step, const char *name, const char *k
 /* Millimetres, or feet. Returns the assignment. */
 static unsigned put_units(tn_stepfile *step)
 {
-    unsigned length =
-        tn_stepfile_add(step, "IFCSIUNIT(*,.LENGTHUNIT.,%s,.METRE.)", step->feet ? "$" : ".MILLI.");
+    unsigned length = tn_stepfile_add(step, "IFCSIUNIT(*,.LENGTHUNIT.,%s,.METRE.)", step->feet ? "$" : ".MILLI.");
     unsigned area = tn_stepfile_add(step, "IFCSIUNIT(*,.AREAUNIT.,$,.SQUARE_METRE.)");
     unsigned volume = tn_stepfile_add(step, "IFCSIUNIT(*,.VOLUMEUNIT.,$,.CUBIC_METRE.)");
     unsigned angle = tn_stepfile_add(step, "IFCSIUNIT(*,.PLANEANGLEUNIT.,$,.RADIAN.)");
@@ -92,8 +91,8 @@ static unsigned put_units(tn_stepfile *step)
 
 static void aggregate(tn_stepfile *step, unsigned whole, const char *parts, const char *key)
 {
-    tn_stepfile_add(step, "IFCRELAGGREGATES('%s',$,$,$,#%u,%s)", tn_stepfile_guid(step, "parts of %s", key).text,
-                    whole, parts);
+    tn_stepfile_add(step, "IFCRELAGGREGATES('%s',$,$,$,#%u,%s)", tn_stepfile_guid(step, "parts of %s", key).text, whole,
+                    parts);
 }
 
 static void aggregate_one(tn_stepfile *step, unsigned whole, unsigned part, const char *key)
@@ -108,8 +107,7 @@ static unsigned put_level(tn_ifc *ifc, const char *name)
 {
     const tn_house_form *form = ifc->house->form;
     tn_stepfile *step = &ifc->step;
-    const char *doc =
-        tn_text(form->module, form->module->STOREY_records[form->record->storey_first + ifc->storey].doc);
+    const char *doc = tn_text(form->module, form->module->STOREY_records[form->record->storey_first + ifc->storey].doc);
     return tn_stepfile_add(step, "IFCBUILDINGSTOREY('%s',$,'%s',$,$,#%u,$,'%s',.ELEMENT.,%s)",
                            tn_stepfile_guid(step, "storey %s", name).text, tn_stepfile_text(name).text, ifc->placement,
                            tn_stepfile_text(doc[0] ? doc : name).text,
@@ -205,9 +203,9 @@ static tn_status put_all(tn_ifc *ifc, const tn_ifc_said *said, const char *line,
     unsigned site = tn_stepfile_add(step, "IFCSITE('%s',$,'site',$,$,#%u,$,$,.ELEMENT.,%s,%s,$,$,$)",
                                     tn_stepfile_guid(step, "site").text, ground, latitude, longitude);
     unsigned place = tn_stepfile_placement(step, ground, 0, 0, 0);
-    unsigned building = tn_stepfile_add(step, "IFCBUILDING('%s',$,'%s',$,$,#%u,$,$,.ELEMENT.,$,$,$)",
-                                        tn_stepfile_guid(step, "building").text, tn_stepfile_text(said->name).text,
-                                        place);
+    unsigned building =
+        tn_stepfile_add(step, "IFCBUILDING('%s',$,'%s',$,$,#%u,$,$,.ELEMENT.,$,$,$)",
+                        tn_stepfile_guid(step, "building").text, tn_stepfile_text(said->name).text, place);
     aggregate_one(step, project, site, "project");
     aggregate_one(step, site, building, "site");
     tn_status status = put_storeys(ifc, building, place, error);

@@ -47,12 +47,12 @@ typedef struct tn_ifc {
     const tn_solids *solids;
     tn_designations names;
     tn_flights flights;
-    tn_swings doors;                    /* of the storey at hand */
-    tn_ifc_wall *walls;                 /* [face] */
-    bool *joined;                       /* [box of solids] a post that is part of a wall */
-    unsigned *spaces;                   /* [cell] the space of the room that begins there */
+    tn_swings doors;                                           /* of the storey at hand */
+    tn_ifc_wall *walls;                                        /* [face] */
+    bool *joined;                                              /* [box of solids] a post that is part of a wall */
+    unsigned *spaces;                                          /* [cell] the space of the room that begins there */
     unsigned floors[TN_STOREYS_MAX + 1], tops[TN_STOREYS_MAX]; /* [storey] the deck below it, and above its top cells */
-    unsigned placement;                 /* of the storey at hand */
+    unsigned placement;                                        /* of the storey at hand */
     uint32_t storey;
     tn_ifc_group *groups;
     size_t group_count, group_room;
@@ -134,6 +134,9 @@ double tn_ifc_prism_volume(const tn_block_corner *corners, size_t count);
 
 /* A guard, placed within the storey at hand or a stair. */
 unsigned tn_ifc_put_guard(tn_ifc *ifc, const tn_solid *guard, unsigned within);
+
+/* ---- ifc_decks.c: the deck below the storey at hand, or (top) what lies above its highest cells; 0: there is none */
+unsigned tn_ifc_put_deck(tn_ifc *ifc, bool top, tn_stepfile_list *list);
 
 /* ---- ifc_walls.c: the walls of the storey at hand, what is in them, and how they meet */
 tn_status tn_ifc_put_walls(tn_ifc *ifc, tn_stepfile_list *list, tn_error *error);

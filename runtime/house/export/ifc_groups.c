@@ -24,8 +24,10 @@ unsigned *tn_ifc_group_of(tn_ifc *ifc, tn_ifc_relation relation, const char *key
             ifc->failed = true;
             return &ifc->scrap;
         }
-        ifc->groups[ifc->group_count++] = (tn_ifc_group){
-            .relation = relation, .key = hash, .id = tn_stepfile_guid(&ifc->step, "relation %d %s", (int)relation, key)};
+        ifc->groups[ifc->group_count++] =
+            (tn_ifc_group){.relation = relation,
+                           .key = hash,
+                           .id = tn_stepfile_guid(&ifc->step, "relation %d %s", (int)relation, key)};
     }
     tn_stepfile_list_add(&ifc->groups[i].parts, part);
     return &ifc->groups[i].definition;
@@ -64,9 +66,9 @@ unsigned tn_ifc_put(tn_ifc *ifc, const tn_ifc_part *part, const char *key)
         snprintf(shape, sizeof shape, "#%u", part->shape);
     if (part->long_name)
         snprintf(last, sizeof last, "'%s'", tn_stepfile_text(part->long_name).text);
-    unsigned made = tn_stepfile_add(step, "%s('%s',$,'%s',$,$,#%u,%s,%s%s)", part->entity,
-                                    tn_stepfile_guid(step, "%s", key).text, tn_stepfile_text(part->name).text,
-                                    part->where, shape, last, part->tail);
+    unsigned made =
+        tn_stepfile_add(step, "%s('%s',$,'%s',$,$,#%u,%s,%s%s)", part->entity, tn_stepfile_guid(step, "%s", key).text,
+                        tn_stepfile_text(part->name).text, part->where, shape, last, part->tail);
     snprintf(type_key, sizeof type_key, "%s %s %s", part->entity, part->type_name, tail);
     unsigned *type = tn_ifc_group_of(ifc, TN_IFC_TYPE, type_key, made);
     if (*type == 0)
@@ -96,8 +98,8 @@ static void put_set(tn_ifc *ifc, const char *key, const char *name, const char *
         tn_stepfile_list_add(&values, tn_stepfile_add(step, "IFCPROPERTYSINGLEVALUE('%s',$,%s,$)", properties[i].name,
                                                       properties[i].value));
     const char *list = tn_stepfile_list_text(&values);
-    *definition = tn_stepfile_add(step, "IFCPROPERTYSET('%s',$,'%s',$,%s)",
-                                  tn_stepfile_guid(step, "set %s", key).text, name, list ? list : "()");
+    *definition = tn_stepfile_add(step, "IFCPROPERTYSET('%s',$,'%s',$,%s)", tn_stepfile_guid(step, "set %s", key).text,
+                                  name, list ? list : "()");
     ifc->failed |= !list;
     tn_stepfile_list_clear(&values);
 }
@@ -146,8 +148,7 @@ void tn_ifc_quantities(tn_ifc *ifc, unsigned part, const char *set, const char *
     char own[KEY_ROOM];
     tn_stepfile *step = &ifc->step;
     if (key) {
-        unsigned made =
-            put_quantities(ifc, set, tn_stepfile_guid(step, "quantities %s", key), quantities, count);
+        unsigned made = put_quantities(ifc, set, tn_stepfile_guid(step, "quantities %s", key), quantities, count);
         tn_stepfile_add(step, "IFCRELDEFINESBYPROPERTIES('%s',$,$,$,(#%u),#%u)",
                         tn_stepfile_guid(step, "quantities of %s", key).text, part, made);
         return;
@@ -194,10 +195,10 @@ static unsigned put_layer_set(tn_ifc *ifc, tn_layered of)
         unsigned made = put_material(ifc, material == TN_NO_RECORD
                                               ? TN_SOLID_COUNT + form->record->material_count + part - TN_OF_COUNT
                                               : TN_SOLID_COUNT + material - form->record->material_first);
-        tn_stepfile_list_add(
-            &layers, tn_stepfile_add(step, "IFCMATERIALLAYER(#%u,%s,$,'%s',$,$,$)", made,
-                                     tn_stepfile_length(step, (double)tn_form_layer(form, i)->thick).text,
-                                     tn_stepfile_text(tn_form_part_text(form, part)).text));
+        tn_stepfile_list_add(&layers,
+                             tn_stepfile_add(step, "IFCMATERIALLAYER(#%u,%s,$,'%s',$,$,$)", made,
+                                             tn_stepfile_length(step, (double)tn_form_layer(form, i)->thick).text,
+                                             tn_stepfile_text(tn_form_part_text(form, part)).text));
     }
     const char *list = tn_stepfile_list_text(&layers);
     unsigned set = tn_stepfile_add(step, "IFCMATERIALLAYERSET(%s,'%s',$)", list ? list : "()", tn_names_LAYERED[of]);
@@ -218,8 +219,9 @@ static unsigned put_layers(tn_ifc *ifc, tn_layered of, tn_layers_lie lie)
         ifc->layer_sets[of] = put_layer_set(ifc, of);
     if (lie == LIE_ANYHOW)
         return ifc->layer_sets[of];
-    double thick = (double)tn_layered_thick(ifc->house->form->record, of),
-           offset = of == TN_LAYERED_DECK ? thick : lie == LIE_ALONG ? -thick / 2 : thick / 2;
+    double thick = (double)tn_layered_thick(ifc->house->form->record, of), offset = of == TN_LAYERED_DECK ? thick
+                                                                                    : lie == LIE_ALONG    ? -thick / 2
+                                                                                                          : thick / 2;
     return tn_stepfile_add(step, "IFCMATERIALLAYERSETUSAGE(#%u,.%s.,.%s.,%s,$)", ifc->layer_sets[of],
                            of == TN_LAYERED_DECK ? "AXIS3" : "AXIS2", lie == LIE_ALONG ? "POSITIVE" : "NEGATIVE",
                            tn_stepfile_length(step, offset).text);
@@ -267,9 +269,9 @@ void tn_ifc_look_as(tn_ifc *ifc, const tn_solid *s)
     unsigned *style = &ifc->styles[2 * place + (s->kind == TN_SOLID_PANE)];
     if (!*style) {
         const unsigned char *c = ifc->colours[place];
-        unsigned colour = tn_stepfile_add(step, "IFCCOLOURRGB($,%s,%s,%s)", tn_stepfile_real(c[0] / 255.0, 6).text,
-                                          tn_stepfile_real(c[1] / 255.0, 6).text,
-                                          tn_stepfile_real(c[2] / 255.0, 6).text),
+        unsigned colour =
+                     tn_stepfile_add(step, "IFCCOLOURRGB($,%s,%s,%s)", tn_stepfile_real(c[0] / 255.0, 6).text,
+                                     tn_stepfile_real(c[1] / 255.0, 6).text, tn_stepfile_real(c[2] / 255.0, 6).text),
                  rendering = tn_stepfile_add(step, "IFCSURFACESTYLERENDERING(#%u,%s,$,$,$,$,$,$,.NOTDEFINED.)", colour,
                                              s->kind == TN_SOLID_PANE ? PANE_TRANSPARENCY : "0.");
         *style = tn_stepfile_add(step, "IFCSURFACESTYLE($,.BOTH.,(#%u))", rendering);

@@ -1,6 +1,5 @@
-/* Writes what stands in a storey of a building model by itself: posts, beams, decks, guards, furniture. */
+/* Writes what stands in a storey of a building model by itself: posts, beams, guards, furniture. */
 #include <stdio.h>
-#include <stdlib.h>
 
 #include "runtime/house/export/ifc.h"
 
@@ -103,8 +102,8 @@ static void put_post(tn_ifc *ifc, const tn_solid *s, tn_stepfile_list *list)
     snprintf(key, sizeof key, "post %s", where);
     char type[100];
     tn_ifc_sized_name(ifc, "post", b->x1 - b->x0 < b->y1 - b->y0 ? b->x1 - b->x0 : b->y1 - b->y0, type, sizeof type);
-    tn_ifc_part part = {.entity = "IFCCOLUMN", .tail = ",.COLUMN.",
-                        .name = tn_solid_kind_text(s->kind), .type_name = type};
+    tn_ifc_part part = {
+        .entity = "IFCCOLUMN", .tail = ",.COLUMN.", .name = tn_solid_kind_text(s->kind), .type_name = type};
     part.shape = stand(ifc, s, ifc->placement, &part.where);
     unsigned post = tn_ifc_put(ifc, &part, key);
     const tn_ifc_property bears = tn_ifc_truth("LoadBearing", true);
@@ -125,13 +124,12 @@ static void put_beam(tn_ifc *ifc, const tn_solid *s, tn_stepfile_list *list)
     const tn_box *b = &s->at;
     const char *name = tn_text(ifc->house->form->module, tn_form_beam(ifc->house->form, s->item)->name);
     bool in_x = b->x1 - b->x0 > b->y1 - b->y0;
-    double length = (double)(in_x ? b->x1 - b->x0 : b->y1 - b->y0), wide = (double)(in_x ? b->y1 - b->y0 : b->x1 - b->x0),
-           high = (double)(b->z1 - b->z0);
+    double length = (double)(in_x ? b->x1 - b->x0 : b->y1 - b->y0),
+           wide = (double)(in_x ? b->y1 - b->y0 : b->x1 - b->x0), high = (double)(b->z1 - b->z0);
     corner_key(ifc, in_x ? b->x0 : b->x0 + (b->x1 - b->x0) / 2, in_x ? b->y0 + (b->y1 - b->y0) / 2 : b->y0, where,
                sizeof where);
     snprintf(key, sizeof key, "beam %s", where);
-    tn_ifc_part part = {.entity = "IFCBEAM", .tail = ",.BEAM.",
-                        .name = name, .type_name = name};
+    tn_ifc_part part = {.entity = "IFCBEAM", .tail = ",.BEAM.", .name = name, .type_name = name};
     part.shape = stand(ifc, s, ifc->placement, &part.where);
     unsigned beam = tn_ifc_put(ifc, &part, key);
     const tn_ifc_property bears = tn_ifc_truth("LoadBearing", true);
@@ -146,93 +144,6 @@ static void put_beam(tn_ifc *ifc, const tn_solid *s, tn_stepfile_list *list)
     tn_stepfile_list_add(list, beam);
 }
 
-/* ---- decks */
-
-/* Is the solid of the deck below the storey at hand, or (top) of what lies above its highest cells? */
-static bool is_deck(const tn_ifc *ifc, const tn_solid *s, bool top)
-{
-    return top ? s->kind == TN_SOLID_ROOFDECK && ifc->house->cells[s->of].storey == ifc->storey
-               : s->kind == TN_SOLID_DECK && s->of == ifc->storey;
-}
-
-/* How long the outline of disjoint rectangles is, in nanometres: what two have in common counts for neither. */
-static double outline_of(const tn_solid *const *pieces, size_t count)
-{
-    double length = 0;
-    for (size_t i = 0; i < count; i++) {
-        const tn_box *a = &pieces[i]->at;
-        length += 2 * (double)(a->x1 - a->x0 + a->y1 - a->y0);
-        for (size_t k = 0; k < i; k++) {
-            const tn_box *b = &pieces[k]->at;
-            int64_t x0 = a->x0 > b->x0 ? a->x0 : b->x0, x1 = a->x1 < b->x1 ? a->x1 : b->x1,
-                    y0 = a->y0 > b->y0 ? a->y0 : b->y0, y1 = a->y1 < b->y1 ? a->y1 : b->y1;
-            if (x0 <= x1 && y0 <= y1)
-                length -= 2 * (double)(x1 - x0 + y1 - y0);
-        }
-    }
-    return length;
-}
-
-/* One slab of all its rectangles; 0: there is none. */
-static unsigned put_deck(tn_ifc *ifc, bool top, tn_stepfile_list *list)
-{
-    tn_stepfile *step = &ifc->step;
-    const tn_solids *solids = ifc->solids;
-    const tn_solid **pieces = malloc((solids->box_count + 1) * sizeof *pieces);
-    size_t count = 0;
-    double area = 0;
-    if (!pieces) {
-        ifc->failed = true;
-        return 0;
-    }
-    for (size_t i = 0; i < solids->box_count; i++)
-        if (is_deck(ifc, &solids->boxes[i], top))
-            pieces[count++] = &solids->boxes[i];
-    if (count == 0) {
-        free(pieces);
-        return 0;
-    }
-    tn_stepfile_list bodies = {0};
-    tn_ifc_look_as(ifc, pieces[0]);
-    for (size_t i = 0; i < count; i++) {
-        const tn_box *b = &pieces[i]->at;
-        const double low[3] = {(double)b->x0, (double)b->y0, 0},
-                     high[3] = {(double)b->x1, (double)b->y1, (double)(b->z1 - b->z0)};
-        tn_stepfile_list_add(&bodies, tn_stepfile_solid(step, low, high));
-        area += (double)(b->x1 - b->x0) * (double)(b->y1 - b->y0) / 1e18;
-    }
-    char key[TN_NAME_MAX + 20], type[100];
-    const tn_house_form *form = ifc->house->form;
-    const char *storey =
-        tn_text(form->module, form->module->STOREY_records[form->record->storey_first + ifc->storey].name);
-    const char *tail = top || ifc->storey > 0 ? ",.FLOOR." : ",.BASESLAB.";
-    snprintf(key, sizeof key, "%s %s", tn_solid_kind_text(pieces[0]->kind), storey);
-    tn_ifc_sized_name(ifc, tn_solid_kind_text(pieces[0]->kind), form->record->deck, type, sizeof type);
-    const double thick = (double)form->record->deck;
-    tn_ifc_part part = {.entity = "IFCSLAB", .tail = tail,
-                        .name = tn_solid_kind_text(pieces[0]->kind), .type_name = type};
-    part.shape = tn_stepfile_shape(step, tn_stepfile_body(step, "SweptSolid", tn_stepfile_list_text(&bodies)), 0);
-    part.where = tn_stepfile_placement(step, ifc->placement, 0, 0,
-                                       (double)(pieces[0]->at.z0 - form->level[ifc->storey]));
-    unsigned slab = tn_ifc_put(ifc, &part, key);
-    const tn_ifc_property properties[] = {tn_ifc_truth("IsExternal", !top && ifc->storey == 0),
-                                          tn_ifc_truth("LoadBearing", true)};
-    const tn_ifc_quantity quantities[] = {{"Width", 'L', thick},
-                                          {"Perimeter", 'L', outline_of(pieces, count)},
-                                          {"GrossArea", 'A', area},
-                                          {"NetArea", 'A', area},
-                                          {"GrossVolume", 'V', area * thick / 1e9},
-                                          {"NetVolume", 'V', area * thick / 1e9}};
-    tn_ifc_properties(ifc, slab, "Pset_SlabCommon", type, properties, 2);
-    tn_ifc_quantities(ifc, slab, "Qto_SlabBaseQuantities", key, quantities, 6);
-    tn_ifc_make_of(ifc, pieces[0], slab);
-    tn_stepfile_list_add(list, slab);
-    ifc->failed |= bodies.text.failed;
-    tn_stepfile_list_clear(&bodies);
-    free(pieces);
-    return slab;
-}
-
 /* ---- guards and furniture */
 
 unsigned tn_ifc_put_guard(tn_ifc *ifc, const tn_solid *s, unsigned within)
@@ -242,7 +153,8 @@ unsigned tn_ifc_put_guard(tn_ifc *ifc, const tn_solid *s, unsigned within)
     tn_ifc_face_key(ifc, s->of, face);
     snprintf(key, sizeof key, "guard %s", face);
     tn_ifc_sized_name(ifc, "guard", s->at.z1 - s->at.z0, type, sizeof type);
-    tn_ifc_part part = {.entity = "IFCRAILING", .tail = ",.GUARDRAIL.", .name = tn_solid_kind_text(s->kind), .type_name = type};
+    tn_ifc_part part = {
+        .entity = "IFCRAILING", .tail = ",.GUARDRAIL.", .name = tn_solid_kind_text(s->kind), .type_name = type};
     part.shape = stand(ifc, s, within, &part.where);
     unsigned guard = tn_ifc_put(ifc, &part, key);
     tn_ifc_property high = {.name = "Height"};
@@ -284,8 +196,11 @@ static void put_item(tn_ifc *ifc, const tn_solid *s, tn_stepfile_list *list)
     tn_ifc_cell_key(ifc, s->of, cell);
     snprintf(key, sizeof key, "item %s %s", tn_text(module, box->name), cell);
     snprintf(tail, sizeof tail, ",%s", furniture_type((tn_item_symbol)box->symbol));
-    tn_ifc_part part = {.entity = "IFCFURNITURE", .tail = tail, .type_tail = ",.NOTDEFINED.,.NOTDEFINED.",
-                        .name = tn_text(module, box->name), .type_name = tn_text(module, box->name)};
+    tn_ifc_part part = {.entity = "IFCFURNITURE",
+                        .tail = tail,
+                        .type_tail = ",.NOTDEFINED.,.NOTDEFINED.",
+                        .name = tn_text(module, box->name),
+                        .type_name = tn_text(module, box->name)};
     part.shape = stand(ifc, s, ifc->placement, &part.where);
     unsigned item = tn_ifc_put(ifc, &part, key);
     tn_ifc_make_of(ifc, s, item);
@@ -302,8 +217,8 @@ static bool is_of_stair(const tn_ifc *ifc, const tn_solid *guard)
 
 void tn_ifc_put_parts(tn_ifc *ifc, tn_stepfile_list *list)
 {
-    ifc->floors[ifc->storey] = put_deck(ifc, false, list);
-    ifc->tops[ifc->storey] = put_deck(ifc, true, list);
+    ifc->floors[ifc->storey] = tn_ifc_put_deck(ifc, false, list);
+    ifc->tops[ifc->storey] = tn_ifc_put_deck(ifc, true, list);
     for (size_t i = 0; i < ifc->solids->box_count; i++) {
         const tn_solid *s = &ifc->solids->boxes[i];
         if (s->kind == TN_SOLID_POST && s->of == ifc->storey && !ifc->joined[i])

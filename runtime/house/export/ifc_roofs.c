@@ -9,9 +9,8 @@ size_t tn_ifc_corners(const tn_ifc *ifc, const tn_prism *prism, tn_block_corner 
     const tn_prism_corner *c = ifc->solids->corners + prism->corner_first;
     double floor = (double)ifc->house->form->level[ifc->storey];
     for (size_t i = 0; i < prism->corner_count; i++)
-        corners[i] =
-            (tn_block_corner){tn_fraction_value(c[i].x), tn_fraction_value(c[i].y),
-                              tn_fraction_value(c[i].low) - floor, tn_fraction_value(c[i].high) - floor};
+        corners[i] = (tn_block_corner){tn_fraction_value(c[i].x), tn_fraction_value(c[i].y),
+                                       tn_fraction_value(c[i].low) - floor, tn_fraction_value(c[i].high) - floor};
     return prism->corner_count;
 }
 
@@ -69,7 +68,11 @@ static void put_gable(tn_ifc *ifc, const tn_ifc_prisms *gable, tn_stepfile_list 
     if (first->item != TN_NO_FACE)
         tn_ifc_face_key(ifc, first->item, face);
     snprintf(key, sizeof key, "gable %s, %s", cell, face);
-    const tn_ifc_part part = {.entity = "IFCWALL", .tail = ",.SOLIDWALL.", .name = name, .type_name = name, .shape = gable->shape,
+    const tn_ifc_part part = {.entity = "IFCWALL",
+                              .tail = ",.SOLIDWALL.",
+                              .name = name,
+                              .type_name = name,
+                              .shape = gable->shape,
                               .where = tn_stepfile_placement(&ifc->step, ifc->placement, 0, 0, 0)};
     unsigned wall = tn_ifc_put(ifc, &part, key);
     const tn_ifc_quantity quantities[] = {{"GrossFootprintArea", 'A', gable->plan},
@@ -149,8 +152,11 @@ static void put_slab(tn_ifc *ifc, const tn_ifc_prisms *slab, tn_ifc_roof *roof)
     tn_ifc_cell_key(ifc, first->of, cell);
     snprintf(key, sizeof key, "slab %zu of roof over %s", first->plane, cell);
     tn_ifc_sized_name(ifc, name, ifc->house->form->record->roof, type, sizeof type);
-    const tn_ifc_part part = {.entity = "IFCSLAB", .tail = ",.ROOF.",
-                              .name = name, .type_name = type, .shape = slab->shape,
+    const tn_ifc_part part = {.entity = "IFCSLAB",
+                              .tail = ",.ROOF.",
+                              .name = name,
+                              .type_name = type,
+                              .shape = slab->shape,
                               .where = tn_stepfile_placement(&ifc->step, roof->where, 0, 0, 0)};
     unsigned made = tn_ifc_put(ifc, &part, key);
     const tn_ifc_property external = tn_ifc_truth("IsExternal", true);
@@ -171,8 +177,7 @@ static void put_slab(tn_ifc *ifc, const tn_ifc_prisms *slab, tn_ifc_roof *roof)
 static unsigned put_whole(tn_ifc *ifc, const char *type, tn_ifc_roof *roof)
 {
     const char *name = tn_solid_kind_text(TN_SOLID_ROOF);
-    const tn_ifc_part part = {.entity = "IFCROOF", .tail = type,
-                              .name = name, .type_name = name, .where = roof->where};
+    const tn_ifc_part part = {.entity = "IFCROOF", .tail = type, .name = name, .type_name = name, .where = roof->where};
     unsigned made = tn_ifc_put(ifc, &part, "roof");
     const char *slabs = tn_stepfile_list_text(&roof->slabs);
     tn_stepfile_add(&ifc->step, "IFCRELAGGREGATES('%s',$,$,$,#%u,%s)",

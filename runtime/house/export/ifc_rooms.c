@@ -1,4 +1,5 @@
-/* Writes the rooms of a building model: spaces with their areas, in zones by what they are for, and what bounds them. */
+/* Writes the rooms of a building model: spaces with their areas, in zones by what they are for, and what bounds them.
+ */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -90,9 +91,10 @@ static void put_zone(tn_ifc *ifc, const char *function, unsigned space)
                                 tn_stepfile_text(function).text);
 }
 
-/* What is added up of a room's cells. */
+/* What is added up of a room's cells. level: it is as high as its storey all over. */
 typedef struct tn_ifc_room {
     double gross, net, volume;
+    bool level;
     unsigned shape;
 } tn_ifc_room;
 
@@ -102,10 +104,12 @@ static tn_ifc_room measure(tn_ifc *ifc, uint32_t room)
     tn_stepfile_list solids = {0};
     bool faceted = is_faceted(ifc, room);
     ifc->step.style = 0;
+    sums.level = !faceted;
     for (uint32_t i = room; i < ifc->house->cell_count; i++) {
         if (ifc->names.rooms[i] != room)
             continue;
         put_cell(ifc, i, faceted, &solids, &sums.volume);
+        sums.level &= !ifc->house->cells[i].open;
         sums.gross += ifc->house->cells[i].open ? 0 : area_of(ifc->house->cells[i].at);
         sums.net += ifc->house->cells[i].open ? 0 : area_of(tn_cell_clear(ifc->house, i));
     }
@@ -130,16 +134,19 @@ static void put_space(tn_ifc *ifc, uint32_t room, tn_stepfile_list *list)
     const tn_ifc_part part = {.entity = "IFCSPACE",
                               .tail = outdoor ? ",.ELEMENT.,.EXTERNAL.,$" : ",.ELEMENT.,.INTERNAL.,$",
                               .type_tail = ",.NOTDEFINED.,$",
-                              .name = number_of(ifc, room), .type_name = function, .long_name = words, .shape = sums.shape,
+                              .name = number_of(ifc, room),
+                              .type_name = function,
+                              .long_name = words,
+                              .shape = sums.shape,
                               .where = tn_stepfile_placement(&ifc->step, ifc->placement, 0, 0, 0)};
     unsigned space = tn_ifc_put(ifc, &part, key);
     const tn_ifc_property external = tn_ifc_truth("IsExternal", outdoor);
-    const tn_ifc_quantity quantities[] = {{"Height", 'L', (double)tn_form_clear(house->form, ifc->storey)},
-                                          {"GrossFloorArea", 'A', sums.gross},
+    const tn_ifc_quantity quantities[] = {{"GrossFloorArea", 'A', sums.gross},
                                           {"NetFloorArea", 'A', sums.net},
-                                          {"NetVolume", 'V', sums.volume}};
+                                          {"NetVolume", 'V', sums.volume},
+                                          {"Height", 'L', (double)tn_form_clear(house->form, ifc->storey)}};
     tn_ifc_properties(ifc, space, "Pset_SpaceCommon", function, &external, 1);
-    tn_ifc_quantities(ifc, space, "Qto_SpaceBaseQuantities", key, quantities, 4);
+    tn_ifc_quantities(ifc, space, "Qto_SpaceBaseQuantities", key, quantities, sums.level ? 4 : 3);
     put_zone(ifc, function, space);
     ifc->spaces[room] = space;
     tn_stepfile_list_add(list, space);
@@ -167,10 +174,9 @@ static unsigned surface_of(tn_ifc *ifc, const tn_box *b, int out)
     int along = flat ? 0 : (out + 1) % 4;
     double wide = flat || along % 2 == 0 ? x1 - x0 : y1 - y0, high = flat ? y1 - y0 : (double)(b->z1 - b->z0);
     const double around[5][2] = {{0, 0}, {wide, 0}, {wide, high}, {0, high}, {0, 0}};
-    unsigned corner =
-        tn_stepfile_add(step, "IFCCARTESIANPOINT((%s,%s,%s))", tn_stepfile_length(step, along == 2 ? x1 : x0).text,
-                        tn_stepfile_length(step, along == 3 || out == OUT_DOWN ? y1 : y0).text,
-                        tn_stepfile_length(step, z0).text);
+    unsigned corner = tn_stepfile_add(
+        step, "IFCCARTESIANPOINT((%s,%s,%s))", tn_stepfile_length(step, along == 2 ? x1 : x0).text,
+        tn_stepfile_length(step, along == 3 || out == OUT_DOWN ? y1 : y0).text, tn_stepfile_length(step, z0).text);
     unsigned axes = tn_stepfile_add(step, "IFCAXIS2PLACEMENT3D(#%u,#%u,#%u)", corner,
                                     out == OUT_UP     ? step->z
                                     : out == OUT_DOWN ? step->down
@@ -259,8 +265,7 @@ static void bound_by_decks(tn_ifc *ifc, uint32_t cell)
              top = s->kind == TN_SOLID_ROOFDECK && house->cells[s->of].storey == c->storey;
         if (!below && !above && !top)
             continue;
-        tn_rectangle at =
-            tn_rectangles_common(&clear, &(tn_rectangle){s->at.x0, s->at.x1, s->at.y0, s->at.y1});
+        tn_rectangle at = tn_rectangles_common(&clear, &(tn_rectangle){s->at.x0, s->at.x1, s->at.y0, s->at.y1});
         int64_t z = below ? s->at.z1 : s->at.z0;
         unsigned part = top ? ifc->tops[c->storey] : ifc->floors[c->storey + above];
         if (at.x0 < at.x1 && at.y0 < at.y1)

@@ -90,8 +90,8 @@ static unsigned shape_of(tn_ifc *ifc, const tn_ifc_stair *stair, size_t first, s
         put_wedges(ifc, stair, steps);
     const char *list = tn_stepfile_list_text(&steps->bodies);
     unsigned shape =
-        list ? tn_stepfile_shape(&ifc->step, tn_stepfile_body(&ifc->step, faceted ? "Tessellation" : "SweptSolid", list),
-                                 0)
+        list ? tn_stepfile_shape(&ifc->step,
+                                 tn_stepfile_body(&ifc->step, faceted ? "Tessellation" : "SweptSolid", list), 0)
              : 0;
     ifc->failed |= steps->bodies.text.failed;
     tn_stepfile_list_clear(&steps->bodies);
@@ -108,8 +108,8 @@ static void keep(tn_ifc *ifc, tn_ifc_stair *stair, unsigned part)
 static void describe_steps(tn_ifc *ifc, const tn_ifc_stair *stair, unsigned part, const char *set, size_t risers,
                            size_t treads)
 {
-    tn_ifc_property sizes[4] = {{.name = "NumberOfRiser"}, {.name = "NumberOfTreads"}, {.name = "RiserHeight"},
-                                {.name = "TreadLength"}};
+    tn_ifc_property sizes[4] = {
+        {.name = "NumberOfRiser"}, {.name = "NumberOfTreads"}, {.name = "RiserHeight"}, {.name = "TreadLength"}};
     snprintf(sizes[0].value, sizeof sizes[0].value, "IFCCOUNTMEASURE(%zu)", risers);
     snprintf(sizes[1].value, sizeof sizes[1].value, "IFCCOUNTMEASURE(%zu)", treads);
     snprintf(sizes[2].value, sizeof sizes[2].value, "IFCPOSITIVELENGTHMEASURE(%s)",
@@ -129,11 +129,15 @@ static void put_run(tn_ifc *ifc, tn_ifc_stair *stair, size_t number, size_t firs
     if (!shape)
         return;
     snprintf(tail, sizeof tail, ",$,$,$,$,.%s.", /* sizes are among the properties */
-             stair->record->turn == TN_TURN_SPIRAL  ? "SPIRAL"
-             : stair->flight->wedge_count > 0 ? "WINDER"
-                                                    : "STRAIGHT");
+             stair->record->turn == TN_TURN_SPIRAL ? "SPIRAL"
+             : stair->flight->wedge_count > 0      ? "WINDER"
+                                                   : "STRAIGHT");
     snprintf(key, sizeof key, "flight %zu of %s", number, stair->key);
-    const tn_ifc_part part = {.entity = "IFCSTAIRFLIGHT", .tail = tail, .name = stair->name, .type_name = stair->name, .shape = shape,
+    const tn_ifc_part part = {.entity = "IFCSTAIRFLIGHT",
+                              .tail = tail,
+                              .name = stair->name,
+                              .type_name = stair->name,
+                              .shape = shape,
                               .where = tn_stepfile_placement(&ifc->step, stair->where, 0, 0, 0)};
     unsigned run = tn_ifc_put(ifc, &part, key);
     const tn_ifc_quantity quantities[] = {{"GrossVolume", 'V', steps.volume}, {"NetVolume", 'V', steps.volume}};
@@ -152,7 +156,11 @@ static void put_landing(tn_ifc *ifc, tn_ifc_stair *stair, size_t tread)
         return;
     snprintf(key, sizeof key, "landing of %s", stair->key);
     tn_ifc_sized_name(ifc, "landing", at->z1 - at->z0, type, sizeof type);
-    const tn_ifc_part part = {.entity = "IFCSLAB", .tail = ",.LANDING.", .name = "landing", .type_name = type, .shape = shape,
+    const tn_ifc_part part = {.entity = "IFCSLAB",
+                              .tail = ",.LANDING.",
+                              .name = "landing",
+                              .type_name = type,
+                              .shape = shape,
                               .where = tn_stepfile_placement(&ifc->step, stair->where, 0, 0, 0)};
     unsigned landing = tn_ifc_put(ifc, &part, key);
     const tn_ifc_property inside = tn_ifc_truth("IsExternal", false);
@@ -217,8 +225,11 @@ static unsigned outline_of(tn_ifc *ifc, const tn_face *face)
 static unsigned put_whole(tn_ifc *ifc, tn_ifc_stair *stair)
 {
     const char *type = stair_type(stair->record), *parts = tn_stepfile_list_text(&stair->parts);
-    const tn_ifc_part part = {.entity = "IFCSTAIR", .tail = type,
-                              .name = stair->name, .type_name = stair->name, .where = stair->where,
+    const tn_ifc_part part = {.entity = "IFCSTAIR",
+                              .tail = type,
+                              .name = stair->name,
+                              .type_name = stair->name,
+                              .where = stair->where,
                               .shape = parts ? 0 : outline_of(ifc, &ifc->house->faces[stair->face])};
     unsigned made = tn_ifc_put(ifc, &part, stair->key);
     if (parts)

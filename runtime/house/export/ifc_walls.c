@@ -143,8 +143,8 @@ static void describe_filling(tn_ifc *ifc, uint32_t number, unsigned part, const 
     tn_ifc_quantities(ifc, part, door ? "Qto_DoorBaseQuantities" : "Qto_WindowBaseQuantities", NULL, quantities, 4);
 }
 
-/* The leaf or pane of an opening, in the middle of it, as thick as it is or as the wall. size: of the opening; where: its
- * placement. */
+/* The leaf or pane of an opening, in the middle of it, as thick as it is or as the wall. size: of the opening; where:
+ * its placement. */
 static void fill(tn_ifc *ifc, uint32_t number, unsigned opening, unsigned where, const double size[3], const char *key,
                  tn_stepfile_list *list)
 {
@@ -165,8 +165,11 @@ static void fill(tn_ifc *ifc, uint32_t number, unsigned opening, unsigned where,
              door ? operation(door, along) : "SINGLE_PANEL");
     snprintf(type, sizeof type, "%s%s", name, door ? hand_of(door, along) : "");
     snprintf(own, sizeof own, "%s %s", door ? "door" : "window", key);
-    tn_ifc_part part = {.entity = door ? "IFCDOOR" : "IFCWINDOW", .tail = tail, .type_tail = type_tail,
-                        .name = name, .type_name = type};
+    tn_ifc_part part = {.entity = door ? "IFCDOOR" : "IFCWINDOW",
+                        .tail = tail,
+                        .type_tail = type_tail,
+                        .name = name,
+                        .type_name = type};
     part.where = tn_stepfile_turned(step, where, along ? 0 : size[0],
                                     along ? (size[1] - thick) / 2 : (size[1] + thick) / 2, 0, along ? 0 : 2);
     tn_ifc_look_as(ifc, &solid);
@@ -205,9 +208,8 @@ static void put_pockets(tn_ifc *ifc, uint32_t number, const char *key, unsigned 
     const tn_ifc_wall *wall = &ifc->walls[number];
     for (size_t i = 0; i < ifc->solids->box_count; i++) {
         const tn_solid *s = &ifc->solids->boxes[i];
-        tn_rectangle at = tn_rectangles_common(
-            &(tn_rectangle){wall->box.x0, wall->box.x1, wall->box.y0, wall->box.y1},
-            &(tn_rectangle){s->at.x0, s->at.x1, s->at.y0, s->at.y1});
+        tn_rectangle at = tn_rectangles_common(&(tn_rectangle){wall->box.x0, wall->box.x1, wall->box.y0, wall->box.y1},
+                                               &(tn_rectangle){s->at.x0, s->at.x1, s->at.y0, s->at.y1});
         tn_box pocket = {at.x0, at.x1, at.y0, at.y1, s->at.z0, wall->box.z1};
         double low[3], high[3];
         unsigned placed;
@@ -293,11 +295,13 @@ static void put_wall(tn_ifc *ifc, uint32_t number, tn_stepfile_list *list)
     snprintf(own, sizeof own, "wall %s", key);
     tn_ifc_sized_name(ifc, tn_solid_kind_text(solid.kind), tn_face_thickness(ifc->house, face), type, sizeof type);
     tn_ifc_look_as(ifc, &solid);
-    tn_ifc_part part = {.entity = "IFCWALL", .tail = tail,
-                        .name = tn_solid_kind_text(solid.kind), .type_name = type,
-                        .where = tn_stepfile_turned(step, ifc->placement, (double)face->at.x0, (double)face->at.y0, 0,
-                                                    runs_in_y(face)),
-                        .shape = shape_of(ifc, face, low, high)};
+    tn_ifc_part part = {
+        .entity = "IFCWALL",
+        .tail = tail,
+        .name = tn_solid_kind_text(solid.kind),
+        .type_name = type,
+        .where = tn_stepfile_turned(step, ifc->placement, (double)face->at.x0, (double)face->at.y0, 0, runs_in_y(face)),
+        .shape = shape_of(ifc, face, low, high)};
     wall->part = tn_ifc_put(ifc, &part, own);
     tn_stepfile_list_add(list, wall->part);
     tn_ifc_make_of(ifc, &solid, wall->part);

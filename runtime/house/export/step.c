@@ -286,9 +286,9 @@ unsigned tn_stepfile_placement(tn_stepfile *step, unsigned within, double x, dou
 unsigned tn_stepfile_turned(tn_stepfile *step, unsigned within, double x, double y, double z, int turns)
 {
     unsigned point = put_point_at(step, x, y, z);
-    unsigned axes = turns == 0 ? tn_stepfile_add(step, "IFCAXIS2PLACEMENT3D(#%u,$,$)", point)
-                               : tn_stepfile_add(step, "IFCAXIS2PLACEMENT3D(#%u,#%u,#%u)", point, step->z,
-                                                 step->along[turns]);
+    unsigned axes = turns == 0
+                        ? tn_stepfile_add(step, "IFCAXIS2PLACEMENT3D(#%u,$,$)", point)
+                        : tn_stepfile_add(step, "IFCAXIS2PLACEMENT3D(#%u,#%u,#%u)", point, step->z, step->along[turns]);
     return tn_stepfile_add(step, "IFCLOCALPLACEMENT(#%u,#%u)", within, axes);
 }
 
@@ -299,20 +299,42 @@ static unsigned styled(tn_stepfile *step, unsigned solid)
     return solid;
 }
 
+unsigned tn_stepfile_extruded(tn_stepfile *step, unsigned profile, double from, double high)
+{
+    unsigned axes = step->axes;
+    if (from != 0)
+        axes = tn_stepfile_add(step, "IFCAXIS2PLACEMENT3D(#%u,$,$)", put_point_at(step, 0, 0, from));
+    return styled(step, tn_stepfile_add(step, "IFCEXTRUDEDAREASOLID(#%u,#%u,#%u,%s)", profile, axes, step->z,
+                                        tn_stepfile_length(step, high).text));
+}
+
 unsigned tn_stepfile_solid(tn_stepfile *step, const double low[3], const double high[3])
 {
     unsigned middle =
         tn_stepfile_add(step, "IFCCARTESIANPOINT((%s,%s))", tn_stepfile_length(step, (low[0] + high[0]) / 2).text,
                         tn_stepfile_length(step, (low[1] + high[1]) / 2).text);
     unsigned flat = tn_stepfile_add(step, "IFCAXIS2PLACEMENT2D(#%u,$)", middle);
-    unsigned profile =
-        tn_stepfile_add(step, "IFCRECTANGLEPROFILEDEF(.AREA.,$,#%u,%s,%s)", flat,
-                        tn_stepfile_length(step, high[0] - low[0]).text, tn_stepfile_length(step, high[1] - low[1]).text);
-    unsigned axes = step->axes;
-    if (low[2] != 0)
-        axes = tn_stepfile_add(step, "IFCAXIS2PLACEMENT3D(#%u,$,$)", put_point_at(step, 0, 0, low[2]));
-    return styled(step, tn_stepfile_add(step, "IFCEXTRUDEDAREASOLID(#%u,#%u,#%u,%s)", profile, axes, step->z,
-                                        tn_stepfile_length(step, high[2] - low[2]).text));
+    unsigned profile = tn_stepfile_add(step, "IFCRECTANGLEPROFILEDEF(.AREA.,$,#%u,%s,%s)", flat,
+                                       tn_stepfile_length(step, high[0] - low[0]).text,
+                                       tn_stepfile_length(step, high[1] - low[1]).text);
+    return tn_stepfile_extruded(step, profile, low[2], high[2] - low[2]);
+}
+
+unsigned tn_stepfile_ring(tn_stepfile *step, const double (*corners)[2], size_t count, bool back)
+{
+    tn_stepfile_list points = {0};
+    for (size_t i = 0; i < count; i++) {
+        const double *corner = corners[back ? count - 1 - i : i];
+        tn_stepfile_list_add(&points, tn_stepfile_add(step, "IFCCARTESIANPOINT((%s,%s))",
+                                                      tn_stepfile_length(step, corner[0]).text,
+                                                      tn_stepfile_length(step, corner[1]).text));
+    }
+    tn_stepfile_list_add(&points, step->last + 1 - (unsigned)count); /* the first again */
+    const char *list = tn_stepfile_list_text(&points);
+    unsigned line = tn_stepfile_add(step, "IFCPOLYLINE(%s)", list ? list : "()");
+    step->text.failed |= !list;
+    tn_stepfile_list_clear(&points);
+    return line;
 }
 
 unsigned tn_stepfile_curve(tn_stepfile *step, const double (*points)[2], size_t count)

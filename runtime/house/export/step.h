@@ -15,9 +15,9 @@ typedef struct tn_stepfile_ids {
 
 typedef struct tn_stepfile {
     tn_buffer text;
-    unsigned last;    /* number of the last instance */
-    bool feet;        /* lengths, areas and volumes are in feet, otherwise in millimetres, square and cubic metres */
-    uint64_t seed;    /* of identifiers: a hash of what the project is called */
+    unsigned last; /* number of the last instance */
+    bool feet;     /* lengths, areas and volumes are in feet, otherwise in millimetres, square and cubic metres */
+    uint64_t seed; /* of identifiers: a hash of what the project is called */
     tn_stepfile_ids ids;
     unsigned context, axes_context, plan_context; /* of bodies, axes and outlines */
     unsigned z, down, along[4], origin, axes;     /* what shapes share; along: x, turned by so many right angles */
@@ -72,6 +72,12 @@ unsigned tn_stepfile_turned(tn_stepfile *step, unsigned within, double x, double
 
 /* The extruded solid of a box between corners. */
 unsigned tn_stepfile_solid(tn_stepfile *step, const double low[3], const double high[3]);
+
+/* What a profile is from a level up: so high. */
+unsigned tn_stepfile_extruded(tn_stepfile *step, unsigned profile, double from, double high);
+
+/* A closed line, by its corners; back: from the last to the first. */
+unsigned tn_stepfile_ring(tn_stepfile *step, const double (*corners)[2], size_t count, bool back);
 
 /* The solid of faces that is upright over a convex polygon, counter-clockwise seen from above, of at most
  * TN_FACET_CORNERS corners. */
