@@ -119,9 +119,12 @@ def completed_searched(subject):
         if "first" not in found:                                 # no limit was passed
             return
         want = [line for line in subject.lines if fits(pattern, trays_of(line))]
-        same(f"complete {text} by search", (found["first"], found["more"]), (want[:COMPLETED], len(want) > COMPLETED))
-        if not want:
-            exact = subject.json("complete", text)
+        exact = subject.json("complete", text)
+        plans = int(exact["plans"])
+        same(f"how many complete {text}, by search", (len(found["first"]), found["more"]), (min(plans, COMPLETED), plans > COMPLETED))
+        if plans == len(want):                                   # else two fields share a value, and it was read as the other's
+            same(f"complete {text} by search", found["first"], want[:COMPLETED])
+        if not plans:
             same(f"why nothing completes {text}, by search", leaves_none(found["why_none"]), leaves_none(exact["why_none"]))
 
 
@@ -138,7 +141,7 @@ def compared_searched(subject):
         return
     file, new = other
     found = read_json("diff", answer("diff", subject.path, file, "--json", "--sample", str(COMPARED - 1), *LIMIT, *subject.options))
-    if "plans" not in found["removed"]:                          # no limit was passed
+    if "removed" not in found:                                   # no limit was passed
         return
     for kind, here, there in (("removed", subject.lines, set(new)), ("added", new, set(subject.lines))):
         only = [line for line in here if line not in there]
