@@ -178,6 +178,11 @@ tn_status tn_numbered_plans_from(tn_numbered *n, const mpz_t first, tn_plan_visi
  * house, the number of plans and that of all houses. After tn_numbered_all. */
 tn_status tn_numbered_locate(tn_numbered *n, const mpz_t rank, mpz_t plan, mpz_t before, tn_error *error);
 
+/* Calls `use` with the houses from one rank on, before another, in their order. After tn_numbered_all. */
+typedef tn_status tn_house_of_rank(void *context, const tn_house *house, const mpz_t rank, tn_error *error);
+tn_status tn_numbered_between(tn_numbered *n, const mpz_t from, const mpz_t to, tn_house_of_rank *use, void *context,
+                              tn_error *error);
+
 /* The house of #P:V or #R. Clear *house in any case. */
 tn_status tn_numbered_house(tn_numbered *n, const char *number, tn_house *house, tn_error *error);
 

@@ -52,6 +52,58 @@ tn_status tn_numbered_locate(tn_numbered *n, const mpz_t rank, mpz_t plan, mpz_t
     return status;
 }
 
+/* ---- stretches of ranks */
+
+/* next: the rank of the next house that is used. before: houses on the plans before. */
+typedef struct stretch {
+    tn_house_of_rank *use;
+    void *context;
+    mpz_t next, before;
+    mpz_srcptr to;
+} stretch;
+
+static tn_status use_house(void *context, const tn_house *house, bool *stop, tn_error *error)
+{
+    stretch *s = context;
+    tn_status status = s->use(s->context, house, s->next, error);
+    mpz_add_ui(s->next, s->next, 1);
+    *stop = mpz_cmp(s->next, s->to) >= 0;
+    return status;
+}
+
+static tn_status use_plan(tn_numbered *n, void *context, const tn_tray *trays, uint32_t length, bool *stop,
+                          tn_error *error)
+{
+    stretch *s = context;
+    mpz_t houses, first;
+    mpz_inits(houses, first, NULL);
+    tn_status status = tn_numbered_houses_on(n, trays, length, houses, error);
+    mpz_sub(first, s->next, s->before);
+    if (status == TN_OK && mpz_cmp(first, houses) < 0)
+        status = tn_numbered_each(n, trays, length, first, use_house, s, error);
+    mpz_add(s->before, s->before, houses);
+    *stop = mpz_cmp(s->next, s->to) >= 0;
+    mpz_clears(houses, first, NULL);
+    return status;
+}
+
+tn_status tn_numbered_between(tn_numbered *n, const mpz_t from, const mpz_t to, tn_house_of_rank *use, void *context,
+                              tn_error *error)
+{
+    stretch s = {.use = use, .context = context, .to = to};
+    mpz_t plan;
+    if (mpz_cmp(from, to) >= 0)
+        return TN_OK;
+    mpz_init(plan);
+    mpz_init_set(s.next, from);
+    mpz_init(s.before);
+    tn_status status = tn_numbered_locate(n, from, plan, s.before, error);
+    if (status == TN_OK)
+        status = tn_numbered_plans_from(n, plan, use_plan, &s, error);
+    mpz_clears(plan, s.next, s.before, NULL);
+    return status;
+}
+
 static bool at_most(const tn_numbered *n, uint64_t plans)
 {
     mpz_t kept;

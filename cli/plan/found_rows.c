@@ -135,8 +135,14 @@ static bool open_tables(tn_found_rows *rows, const tn_plan_metadata *metadata)
                 tn_job_usage(rows->job, "--plan-lines and --row-group are about plans in Parquet"), "leave them out");
     else
         rows->in_tables = true;
-    return rows->in_tables && tn_house_tables_open(&rows->tables, rows->job, rows->of.houses, settings->output, format,
-                                                   settings->csv_safe, metadata);
+    if (!rows->in_tables || (format != TN_FORMAT_SQLITE && !tn_job_takes_text(rows->job, settings->output)))
+        return false;
+    tn_error error;
+    rows->tables.csv_safe = settings->csv_safe;
+    if (tn_house_tables_open(&rows->tables, rows->of.houses, settings->output, format, metadata, &error) == TN_OK)
+        return true;
+    tn_job_fail(rows->job, &error);
+    return false;
 }
 
 static bool open_houses(tn_found_rows *rows)
@@ -335,7 +341,7 @@ static bool takes(void *context, const tn_found_one *found)
 {
     tn_found_rows *rows = context;
     tn_error error;
-    tn_status status = rows->in_tables ? tn_house_tables_write(&rows->tables, found, &error)
+    tn_status status = rows->in_tables ? tn_house_tables_write(&rows->tables, found->house, found->rank, &error)
                                        : (found->house ? write_house : write_plan)(rows, found, &error);
     if (status != TN_OK) {
         tn_job_fail(rows->job, &error);
@@ -364,8 +370,10 @@ static void close_writer(tn_found_rows *rows)
     if (rows->writer)
         tn_job_rows_close(rows->job, rows->writer);
     rows->writer = NULL;
-    if (rows->in_tables)
-        tn_house_tables_close(&rows->tables, rows->job->exit_code == TN_EXIT_DONE);
+    tn_error error;
+    if (rows->in_tables &&
+        tn_house_tables_close(&rows->tables, rows->job->exit_code == TN_EXIT_DONE, &error) != TN_OK)
+        tn_job_fail(rows->job, &error);
     rows->in_tables = false;
 }
 

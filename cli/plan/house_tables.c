@@ -15,13 +15,13 @@
 /* ---- files */
 
 /* "lots.csv" of rooms: "lots.rooms.csv". */
-static bool make_path(const char *path, tn_house_table table, const char *ending, char **made)
+static bool make_path(const char *path, tn_house_table table, bool named, const char *ending, char **made)
 {
     tn_buffer text = {0};
     size_t size = strlen(path), cut = strlen(ending);
     cut = size > cut && strcasecmp(path + size - cut, ending) == 0 ? cut : 0;
     bool good = tn_buffer_append(&text, path, size - cut);
-    if (good && table != TN_TABLE_HOUSES)
+    if (good && (named || table != TN_TABLE_HOUSES))
         good = tn_buffer_printf(&text, ".%s", tn_house_table_name(table));
     good = good && tn_buffer_append(&text, path + size - cut, cut) && tn_buffer_append(&text, "", 1);
     *made = text.data;
@@ -79,26 +79,22 @@ static tn_status begin_parquet(tn_house_tables_file *f, tn_house_table table, tn
 
 static tn_status open_file(tn_house_tables_file *f, tn_house_table table, const char *path, tn_error *error)
 {
-    if (!make_path(path, table, f->parquet ? ".parquet" : ".csv", &f->paths[table]))
+    if (!make_path(path, table, f->named, f->parquet ? ".parquet" : ".csv", &f->paths[table]))
         return tn_fail_memory(error);
-    f->open[table] = tn_job_output(f->job, f->paths[table], &f->outputs[table]); /* what is wrong is said */
-    if (!f->open[table])
-        return TN_OK;
+    tn_status status = tn_output_open(f->paths[table], &f->outputs[table], error);
+    f->open[table] = status == TN_OK;
+    if (status != TN_OK)
+        return status;
     return f->parquet ? begin_parquet(f, table, error) : write_head(f, table, error);
 }
 
-static bool open_files(tn_house_tables_file *f, const char *path)
+static tn_status open_files(tn_house_tables_file *f, const char *path, tn_error *error)
 {
     bool standard = !path || strcmp(path, "-") == 0;
-    tn_error error;
-    for (int i = 0; i < (standard ? 1 : TN_HOUSE_TABLES); i++) {
-        tn_status status = open_file(f, (tn_house_table)i, standard ? "-" : path, &error);
-        if (status != TN_OK)
-            tn_job_fail(f->job, &error);
-        if (status != TN_OK || !f->open[i])
-            return false;
-    }
-    return true;
+    tn_status status = TN_OK;
+    for (int i = 0; status == TN_OK && i < (standard ? 1 : TN_HOUSE_TABLES); i++)
+        status = open_file(f, (tn_house_table)i, standard ? "-" : path, error);
+    return status;
 }
 
 /* ---- a database */
@@ -116,32 +112,29 @@ static bool make_table(const tn_house_tables_file *f, tn_house_table table, tn_s
     return stored != NULL;
 }
 
-static bool open_database(tn_house_tables_file *f, const char *path)
+static tn_status open_database(tn_house_tables_file *f, const char *path, tn_error *error)
 {
     tn_stored_table tables[TN_HOUSE_TABLES] = {{0}};
-    tn_error error;
     tn_status status = TN_OK;
     f->database = tn_plan_sqlite();
     if (!f->database)
-        status = tn_part_absent(TN_WITH_STORE, "writing a SQLite library", &error);
+        status = tn_part_absent(TN_WITH_STORE, "writing a SQLite library", error);
     for (int i = 0; status == TN_OK && i < TN_HOUSE_TABLES; i++)
         if (!make_table(f, (tn_house_table)i, &tables[i]))
-            status = tn_fail_memory(&error);
+            status = tn_fail_memory(error);
     if (status == TN_OK)
         status = f->database->open_tables(path ? path : "-", tables, TN_HOUSE_TABLES,
-                                          (const char *const(*)[2])f->metadata, TN_TABLES_METADATA, &f->file, &error);
+                                          (const char *const(*)[2])f->metadata, TN_TABLES_METADATA, &f->file, error);
     for (int i = 0; i < TN_HOUSE_TABLES; i++)
         free((void *)(uintptr_t)tables[i].columns);
-    if (status != TN_OK)
-        tn_job_fail(f->job, &error);
-    return status == TN_OK;
+    return status;
 }
 
 /* ---- both */
 
-static tn_status take_row(void *context, tn_house_table table, const char *const *cells, tn_error *error)
+tn_status tn_house_tables_row(void *file, tn_house_table table, const char *const *cells, tn_error *error)
 {
-    tn_house_tables_file *f = context;
+    tn_house_tables_file *f = file;
     if (f->database)
         return f->database->add_row(f->file, table, cells, error);
     if (!f->open[table])
@@ -159,51 +152,59 @@ static void take_metadata(tn_house_tables_file *f, const tn_plan_metadata *metad
     memcpy(f->metadata, items, sizeof items);
 }
 
-bool tn_house_tables_open(tn_house_tables_file *f, tn_job *job, const tn_numbered *houses, const char *path,
-                          tn_plan_format format, bool csv_safe, const tn_plan_metadata *metadata)
+tn_status tn_house_tables_open(tn_house_tables_file *f, const tn_numbered *houses, const char *path,
+                               tn_plan_format format, const tn_plan_metadata *metadata, tn_error *error)
 {
-    tn_error error;
-    *f = (tn_house_tables_file){
-        .job = job, .houses = houses, .csv_safe = csv_safe, .parquet = format == TN_FORMAT_PARQUET};
+    f->houses = houses;
+    f->parquet = format == TN_FORMAT_PARQUET;
     take_metadata(f, metadata);
-    if (tn_house_tables_new(&houses->form, tn_library_max(houses->plans), &f->tables, &error) != TN_OK) {
-        tn_job_fail(job, &error);
-        return false;
-    }
-    return format == TN_FORMAT_SQLITE ? open_database(f, path) : open_files(f, path);
+    tn_status status = tn_house_tables_new(&houses->form, tn_library_max(houses->plans), &f->tables, error);
+    if (status != TN_OK)
+        return status;
+    return format == TN_FORMAT_SQLITE ? open_database(f, path, error) : open_files(f, path, error);
 }
 
-tn_status tn_house_tables_write(tn_house_tables_file *f, const tn_found_one *found, tn_error *error)
+tn_status tn_house_tables_write(tn_house_tables_file *f, const tn_house *house, mpz_srcptr rank, tn_error *error)
 {
     mpz_t plan;
     mpz_init(plan);
-    bool kept = tn_library_rank(f->houses->plans, found->trays, found->length, plan);
+    bool kept = tn_library_rank(f->houses->plans, house->trays, (uint32_t)house->length, plan);
     tn_status status =
-        tn_house_tables_add(f->tables, found->house, ++f->written, found->rank, kept ? plan : NULL, take_row, f, error);
+        tn_house_tables_add(f->tables, house, ++f->written, rank, kept ? plan : NULL, tn_house_tables_row, f, error);
     mpz_clear(plan);
     return status;
 }
 
-void tn_house_tables_close(tn_house_tables_file *f, bool complete)
+/* The first failure. */
+static void keep(tn_status status, tn_status later, tn_error *error, const tn_error *found, tn_status *kept)
 {
-    tn_error error;
+    if (status == TN_OK && later != TN_OK)
+        *error = *found;
+    *kept = status == TN_OK ? later : status;
+}
+
+tn_status tn_house_tables_close(tn_house_tables_file *f, bool complete, tn_error *error)
+{
+    tn_status status = TN_OK;
+    tn_error found;
     for (int i = 0; i < TN_HOUSE_TABLES; i++)
-        if (f->packed[i] && complete && tn_parquet_table_end(f->packed[i], &error) != TN_OK) {
-            tn_job_fail(f->job, &error);
-            complete = false;
-        }
+        if (f->packed[i] && complete && status == TN_OK)
+            status = tn_parquet_table_end(f->packed[i], error);
     for (int i = 0; i < TN_HOUSE_TABLES; i++) {
-        if (f->open[i])
-            tn_job_close(f->job, &f->outputs[i], complete);
+        if (f->open[i] && ((complete && status == TN_OK) || !f->outputs[i].replaces))
+            keep(status, tn_output_commit(&f->outputs[i], &found), error, &found, &status);
+        else if (f->open[i])
+            tn_output_discard(&f->outputs[i]);
         tn_parquet_table_free(f->packed[i]);
         free(f->columns[i]);
         free(f->paths[i]);
     }
-    if (f->file && complete && f->database->close_tables(f->file, &error) != TN_OK)
-        tn_job_fail(f->job, &error);
+    if (f->file && complete && status == TN_OK)
+        status = f->database->close_tables(f->file, error);
     if (f->database)
         f->database->free_tables(f->file);
     tn_house_tables_free(f->tables);
     free(f->line.data);
     *f = (tn_house_tables_file){0};
+    return status;
 }

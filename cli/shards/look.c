@@ -65,6 +65,8 @@ static void count_held(tn_job *job, const tn_shard_set *set, uint32_t shard, cou
     }
     c->there++;
     c->bytes += record.bytes;
+    for (size_t i = 0; i < TN_HOUSE_TABLES - 1; i++)
+        c->bytes += record.others[i].bytes;
     c->unread += record.unread;
     if (tn_shard_set_answers(set))
         return;
@@ -119,7 +121,7 @@ static void show_status(const tn_shard_set *set, const counted *c, const tn_buff
     fprintf(out, "shards  %u of %u\n", c->there, set->count);
     if (!tn_shard_set_answers(set)) {
         tn_shard_set_plans(set, number);
-        show_number("plans   ", c->plans, " of ", out);
+        show_number(tn_shard_set_houses(set) ? "houses  " : "plans   ", c->plans, " of ", out);
         show_number("", number, "\n", out);
     }
     mpz_set_ui(number, c->bytes);
@@ -254,7 +256,7 @@ static void tell(tn_job *job, const tn_shard_set *set)
     fprintf(output.stream, "all %u shards are there and whole", set->count);
     if (!tn_shard_set_answers(set)) {
         tn_shard_set_plans(set, plans);
-        show_number(": ", plans, " plans", output.stream);
+        show_number(": ", plans, tn_shard_set_houses(set) ? " houses" : " plans", output.stream);
     }
     fprintf(output.stream, "\n");
     mpz_clear(plans);

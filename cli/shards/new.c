@@ -230,7 +230,11 @@ void tn_shards_new(tn_job *job)
                              .sample = settings->sample.value,
                              .seed = settings->seed.value,
                              .uniform = settings->uniform};
-    if (check_options(job, &what) && tn_job_library(job, what.path, &settings->plans, &ready))
+    if (!check_options(job, &what) || !tn_job_open_plans(job, what.path, &settings->plans))
+        return;
+    if (tn_shards_of_houses(job, settings->plans.library))
+        tn_shards_new_houses(job, &what);
+    else if (tn_job_opened_library(job, &settings->plans, &ready))
         tn_job_new_set(job, &ready, &what);
     tn_library_close(&ready);
 }

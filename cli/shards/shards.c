@@ -26,6 +26,12 @@ static unsigned shards_threads(const tn_job *job)
     return job->settings->ranks && !plans->threads.given ? 1 : tn_job_threads(plans);
 }
 
+/* Houses of a library are counted by one thread: several processes write several shards at a time. */
+static unsigned writing_threads(const tn_job *job, const tn_shard_set *set)
+{
+    return tn_shard_set_houses(set) ? 1 : shards_threads(job);
+}
+
 /* Reads the manifest of the set that the second operand names. False where that failed (then end the job). */
 static bool tn_shards_read(tn_job *job, tn_shards_open *open)
 {
@@ -89,6 +95,8 @@ bool tn_shards_ready_answers(tn_job *job, tn_shards_open *open)
 
 static bool make_ready_for(tn_job *job, tn_shards_open *open)
 {
+    if (tn_shard_set_houses(&open->set))
+        return tn_shards_ready_houses(job, open);
     return tn_shard_set_answers(&open->set) ? tn_shards_ready_answers(job, open) : make_ready(job, open);
 }
 
@@ -100,8 +108,11 @@ bool tn_shards_open_rules(tn_job *job, tn_shards_open *open)
     if (status == TN_OK) {
         if (!tn_job_open(job, open->module) || !make_ready_for(job, open))
             return false;
-        const tn_schema *schema = open->ready.schema ? open->ready.schema : open->matched.schema;
-        status = tn_shard_set_agrees(&open->set, schema, open->ready.library, &error);
+        bool houses = tn_shard_set_houses(&open->set);
+        const tn_schema *schema = houses               ? open->houses.schema
+                                  : open->ready.schema ? open->ready.schema
+                                                       : open->matched.schema;
+        status = tn_shard_set_agrees(&open->set, schema, houses ? open->houses.plans : open->ready.library, &error);
     }
     if (status != TN_OK)
         tn_job_fail(job, &error);
@@ -114,6 +125,8 @@ static void shards_close_library(tn_shards_open *open)
     tn_pruned_clear(&open->pruned);
     tn_chosen_rules_clear(&open->rules);
     tn_library_close(&open->ready);
+    if (open->houses.session)
+        tn_numbered_close(&open->houses);
 }
 
 static void shards_clear(tn_shards_open *open)
@@ -187,7 +200,11 @@ static tn_file_formats format_of(const tn_shard_set *set)
 static void shards_cat(tn_job *job, tn_shards_open *open)
 {
     const char *output = tn_shards_settings_of(job)->written.output;
-    if (tn_job_writes(job, "what this set holds", output, format_of(&open->set)))
+    if (!tn_job_writes(job, "what this set holds", output, format_of(&open->set)))
+        return;
+    if (tn_shard_set_houses(&open->set))
+        tn_shards_gather_houses(job, open, output, TN_FORMAT_CSV);
+    else
         gather(job, open, output, open->set.format);
 }
 
@@ -198,7 +215,11 @@ static void shards_merge(tn_job *job, tn_shards_open *open)
         tn_help(tn_job_diagnostics(job), tn_job_usage(job, "the shards hold answers, of which no database is made"),
                 "`tartan shards cat SET -o FILE` writes all of them");
     else if (output && strcmp(output, "-") != 0) {
-        if (tn_job_writes(job, "a database", output, TN_WRITES(SQLITE) | TN_WRITES_ASKED))
+        if (!tn_job_writes(job, "a database", output, TN_WRITES(SQLITE) | TN_WRITES_ASKED))
+            return;
+        if (tn_shard_set_houses(&open->set))
+            tn_shards_gather_houses(job, open, output, TN_FORMAT_SQLITE);
+        else
             gather(job, open, output, TN_FORMAT_SQLITE);
     } else
         tn_help(tn_job_diagnostics(job), tn_job_usage(job, "a database is a file, and none is named"),
@@ -292,11 +313,13 @@ static bool same_set(tn_job *job, const tn_shard_set *set)
 static void shards_run_set(tn_job *job, tn_shards_open *open)
 {
     const tn_ranks *ranks = job->settings->ranks;
+    const tn_shard_houses houses = {open, tn_shards_write_houses};
     tn_shards_job work = {.set = &open->set,
                           .opened = &job->opened,
                           .ready = &open->ready,
                           .answering = &open->answering,
-                          .threads = shards_threads(job),
+                          .houses = &houses,
+                          .threads = writing_threads(job, &open->set),
                           .watch = tn_interrupt_waiting(),
                           .last = tn_interrupt_gently(ranks != NULL, false),
                           .ranks = ranks};
@@ -440,7 +463,7 @@ static const tn_option options[] = {
     OPTION_ON_ERROR,
     OPTIONS_LIBRARY,
     NUMBER("shards", 0, "N", shards, 1, 0, "new: divide the plans among N shards; inputs among about N"),
-    NUMBER("plans", 0, "N", each, 1, 0, "new: make shards of N plans each"),
+    NUMBER("plans", 0, "N", each, 1, 0, "new: make shards of N plans, or houses, each"),
     RANK("from", 0, "RANK", from, "new: the first rank (default 0)"),
     RANK("to", 0, "RANK", to, "new: one past the last rank (default: all)"),
     NUMBER("sample", 0, "N", sample, 0, TN_SHARDS_SAMPLE_MAX,
@@ -449,7 +472,7 @@ static const tn_option options[] = {
     FLAG("uniform", 0, uniform, "new: the sample has each plan as likely as each, also if the library has weights"),
     CHOICE("format", 'f', "FORMAT", written.format, "auto|lines|json|csv|bin|sqlite|parquet|names|bits|any",
            "new: what the shards are: lines (the default), json, csv, bin or parquet; of a match names (the default), "
-           "json, bits or any; of a prune lines (the default) or json"),
+           "json, bits or any; of a prune lines (the default) or json; of houses csv (the default) or parquet"),
     MAYBE("compress", 0, "HOW", compress, "zstd", "new: compress the shards"),
     FLAG("plan-lines", 0, written.plan_lines, "new: in Parquet, add a column of plan lines"),
     NUMBER("row-group", 0, "N", written.row_group, 1, UINT32_MAX,
@@ -470,6 +493,7 @@ const tn_command tn_command_shards = {
     .summary = "write a library by many workers, on many machines",
     .usage = "new FILE -o SET (--shards N | --plans N) [--from RANK] [--to RANK] [--format FORMAT]\n"
              "new FILE -o SET --sample N [--seed S] --shards N\n"
+             "new FILE -o SET --library HOUSES (--shards N | --plans N) [--format csv|parquet]\n"
              "new FILE -o SET --task match --input PLANS... --shards N [--rule NAME]...\n"
              "new FILE -o SET --task prune --input PLANS... --shards N [--library NAME]\n"
              "run SET [--shard I | --part I/N] [--threads N] [--for TIME]\nstatus SET\ncheck SET\ncat SET [-o FILE]\n"
@@ -488,6 +512,9 @@ const tn_command tn_command_shards = {
         "With --sample the shards hold the plans that `tartan sample` would draw, for samples that one machine has no "
         "room for: each worker draws all numbers and keeps those of its shard, so choose about as many shards as "
         "workers.\n\n"
+        "If --library names a library of houses, a shard is three tables, as `tartan enumerate --columns` writes them: "
+        "000000.houses.csv, 000000.rooms.csv and 000000.faces.csv. Each worker writes one shard at a time. cat and "
+        "merge put tables of CSV together; those of Parquet are read where they are.\n\n"
         "With --task match or prune the shards hold answers about the plans of large files. Lines are divided near "
         "equal numbers of bytes, packed plans between plans, and Parquet between row groups. CSV, databases and "
         "compressed files have one shard each. A file may not change until all shards are there. status lists plans "

@@ -2,10 +2,14 @@
 #ifndef TARTAN_CLI_SHARDS_SHARDS_H
 #define TARTAN_CLI_SHARDS_SHARDS_H
 
+#include "ask/house/numbered.h"
 #include "ask/plan/match.h"
 #include "cli/plan/found_rows.h"
+#include "cli/plan/new_set.h"
 #include "cli/plan/plan_input.h"
 #include "driver/plan/answering.h"
+#include "driver/plan/provenance.h"
+#include "driver/shards/run.h"
 #include "driver/shards/set.h"
 
 typedef struct tn_shards_settings {
@@ -38,6 +42,8 @@ typedef struct tn_shards_open {
     tn_matched matched;
     tn_pruned pruned;
     tn_answering answering;
+    tn_numbered houses; /* of a set of houses, with where they come from */
+    tn_provenance described;
     char *module; /* its path, which the job borrows */
 } tn_shards_open;
 
@@ -58,5 +64,23 @@ void tn_shards_new(tn_job *job);
 void tn_shards_new_answers(tn_job *job, tn_shards_open *open);
 void tn_shards_status(tn_job *job, tn_shards_open *open);
 void tn_shards_check_set(tn_job *job, tn_shards_open *open);
+
+/* ---- houses.c: a shard is a table of houses, one of their rooms and one of their faces */
+
+/* Does the name mean a library of houses of the file that the job has open? */
+bool tn_shards_of_houses(const tn_job *job, const char *library);
+
+/* Makes a set of them. What went wrong is recorded, also by the others here. */
+void tn_shards_new_houses(tn_job *job, const tn_new_set *what);
+
+/* Makes ready what the set's houses are counted by: open->houses and open->described. */
+bool tn_shards_ready_houses(tn_job *job, tn_shards_open *open);
+
+/* Writes a shard of the set that `context` is, a tn_shards_open (tn_shard_houses). */
+tn_status tn_shards_write_houses(void *context, const char *path, const mpz_t from, const mpz_t to, uint64_t before,
+                                 tn_shard_between *between, void *of, uint64_t *written, tn_error *error);
+
+/* Writes the tables of all shards as CSV or into a database. */
+void tn_shards_gather_houses(tn_job *job, tn_shards_open *open, const char *output, tn_plan_format format);
 
 #endif

@@ -29,6 +29,8 @@ tn_status tn_shard_check(const tn_shard_set *set, const tn_ready_library *ready,
 {
     bool recorded = tn_shard_recorded(set, shard), answers = tn_shard_set_answers(set);
     tn_status status = recorded ? tn_shard_same_as_record(set, shard, error) : TN_OK;
+    if (tn_shard_set_houses(set))
+        return status;
     if (status == TN_OK && !answers)
         return tn_shard_read_through(set, ready, shard, watch, error);
     return status == TN_OK && recorded ? check_answers(set, shard, error) : status;
@@ -54,6 +56,17 @@ tn_status tn_shards_complete(const tn_shard_set *set, tn_error *error)
 
 /* ---- strangers */
 
+/* The first file of a shard has the record and the claim beside it. */
+static bool is_file_of(const char *wanted, uint32_t file, const char *name)
+{
+    size_t size = strlen(wanted);
+    if (strncmp(name, wanted, size) != 0)
+        return false;
+    const char *ending = name + size;
+    return !*ending || (file == 0 && (strcmp(ending, TN_SHARD_RECORD) == 0 ||
+                                      strncmp(ending, TN_SHARD_CLAIM, strlen(TN_SHARD_CLAIM)) == 0));
+}
+
 /* Is it a shard of this folder, its record or its claim? What begins with a point is being written. */
 static bool is_known(const tn_shard_set *set, uint32_t folder, const char *name)
 {
@@ -63,14 +76,12 @@ static bool is_known(const tn_shard_set *set, uint32_t folder, const char *name)
     unsigned long long shard = strtoull(name, &end, 10);
     if (end != name + 6 || shard >= set->count || shard / TN_SHARDS_A_FOLDER != folder)
         return false;
-    const tn_shard_name whole = tn_shard_name_of(set, (uint32_t)shard);
-    const char *wanted = strrchr(whole.text, '/') + 1;
-    size_t size = strlen(wanted);
-    if (strncmp(name, wanted, size) != 0)
-        return false;
-    const char *ending = name + size;
-    return !*ending || strcmp(ending, TN_SHARD_RECORD) == 0 ||
-           strncmp(ending, TN_SHARD_CLAIM, strlen(TN_SHARD_CLAIM)) == 0;
+    for (uint32_t i = 0; i < tn_shard_files(set); i++) {
+        const tn_shard_name whole = tn_shard_file_name(set, (uint32_t)shard, i);
+        if (is_file_of(strrchr(whole.text, '/') + 1, i, name))
+            return true;
+    }
+    return false;
 }
 
 static tn_status refuse_stranger(const tn_shard_set *set, const char *folder, const char *name, tn_error *error)

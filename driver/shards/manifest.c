@@ -205,6 +205,7 @@ static tn_status read_piece(const reading *r, uint32_t i, const json_t *shard)
 
 static const char *const tasks[TN_TASK_COUNT] = {[TN_TASK_ENUMERATE] = "enumerate",
                                                  [TN_TASK_SAMPLE] = "sample",
+                                                 [TN_TASK_HOUSES] = "houses",
                                                  [TN_TASK_MATCH] = "match",
                                                  [TN_TASK_PRUNE] = "prune"};
 
@@ -394,6 +395,8 @@ static tn_status read_format(const reading *r)
     if (status != TN_OK)
         return status;
     r->set->format = (tn_plan_format)format;
+    if (tn_shard_set_houses(r->set) && format != TN_FORMAT_CSV && format != TN_FORMAT_PARQUET)
+        return refuse(r, "`format` is none of csv and parquet, which tables of houses are");
     return format != TN_FORMAT_SQLITE ? TN_OK : refuse(r, "`format` is none of lines, json, csv, bin and parquet");
 }
 
@@ -401,6 +404,8 @@ static tn_status read_compression(const reading *r)
 {
     const json_t *how = json_object_get(r->manifest, "compress");
     r->set->compressed = how && json_is_string(how) && strcmp(json_string_value(how), "zstd") == 0;
+    if (how && tn_shard_set_houses(r->set))
+        return refuse(r, "tables of houses are not compressed");
     return !how || r->set->compressed ? TN_OK : refuse(r, "`compress` is not zstd");
 }
 

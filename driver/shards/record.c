@@ -75,6 +75,18 @@ static void write_read(const tn_shard_read *read, tn_json *json)
     tn_json_list_end(json);
 }
 
+static void write_others(const tn_shard_record *record, tn_json *json)
+{
+    tn_json_list(json, "others");
+    for (size_t i = 0; i < TN_HOUSE_TABLES - 1; i++) {
+        tn_json_object(json, NULL);
+        tn_json_count(json, "bytes", record->others[i].bytes);
+        tn_json_string(json, "hash", record->others[i].hash);
+        tn_json_object_end(json);
+    }
+    tn_json_list_end(json);
+}
+
 static bool write_record(const tn_shard_set *set, uint32_t shard, const tn_shard_record *record,
                          const tn_shard_read *read, tn_buffer *text)
 {
@@ -85,6 +97,8 @@ static bool write_record(const tn_shard_set *set, uint32_t shard, const tn_shard
     tn_json_count(&json, "shard", shard);
     tn_json_count(&json, "bytes", record->bytes);
     tn_json_string(&json, "hash", record->hash);
+    if (tn_shard_set_houses(set))
+        write_others(record, &json);
     if (read)
         write_read(read, &json);
     tn_json_object_end(&json);
@@ -118,13 +132,30 @@ static bool parse_number(const json_t *object, const char *key, uint64_t *number
     return json_is_integer(value) && json_integer_value(value) >= 0;
 }
 
+static bool parse_file(const json_t *json, uint64_t *bytes, char hash[33])
+{
+    const char *said = json_string_value(json_object_get(json, "hash"));
+    bool whole = parse_number(json, "bytes", bytes) && said && strlen(said) == 32;
+    if (whole)
+        memcpy(hash, said, 33);
+    return whole;
+}
+
+static bool parse_others(const json_t *json, tn_shard_record *record)
+{
+    const json_t *others = json_object_get(json, "others");
+    bool whole = json_array_size(others) == TN_HOUSE_TABLES - 1;
+    for (size_t i = 0; whole && i < TN_HOUSE_TABLES - 1; i++)
+        whole = parse_file(json_array_get(others, i), &record->others[i].bytes, record->others[i].hash);
+    return whole;
+}
+
 static bool parse_record(const tn_shard_set *set, const json_t *json, tn_shard_record *record)
 {
-    const char *hash = json_string_value(json_object_get(json, "hash"));
     *record = (tn_shard_record){0};
-    bool whole = parse_number(json, "bytes", &record->bytes) && hash && strlen(hash) == 32;
-    if (whole)
-        memcpy(record->hash, hash, 33);
+    bool whole = parse_file(json, &record->bytes, record->hash);
+    if (whole && tn_shard_set_houses(set))
+        whole = parse_others(json, record);
     if (whole && tn_shard_set_answers(set))
         whole = parse_number(json, "lines", &record->lines) && parse_number(json, "unread", &record->unread);
     return whole;
@@ -218,40 +249,98 @@ tn_status tn_shard_read_of(const tn_shard_set *set, uint32_t shard, tn_shard_rea
     return status;
 }
 
-static tn_status compare_size(const tn_shard_set *set, uint32_t shard, uint64_t found, uint64_t wanted, tn_error *error)
+/* What the record says of one of the shard's files. */
+static tn_shard_file file_of(const tn_shard_record *record, uint32_t file)
 {
+    tn_shard_file of = {.bytes = record->bytes};
+    memcpy(of.hash, record->hash, sizeof of.hash);
+    return file > 0 ? record->others[file - 1] : of;
+}
+
+/* ", in rooms" of a shard of several files. */
+static const char *in_table(const tn_shard_set *set, uint32_t file, char text[40])
+{
+    snprintf(text, 40, "%s%s", tn_shard_set_houses(set) ? ", in " : "",
+             tn_shard_set_houses(set) ? tn_house_table_name((tn_house_table)file) : "");
+    return text;
+}
+
+static tn_status compare_size(const tn_shard_set *set, uint32_t shard, uint32_t file, uint64_t found, uint64_t wanted,
+                              tn_error *error)
+{
+    char where[40];
     return found == wanted
                ? TN_OK
-               : tn_shard_wrong(set, shard, error, "has %" PRIu64 " bytes, and had %" PRIu64 " when it was written",
-                                found, wanted);
+               : tn_shard_wrong(set, shard, error, "has %" PRIu64 " bytes, and had %" PRIu64 " when it was written%s",
+                                found, wanted, in_table(set, file, where));
+}
+
+static tn_status file_done(const tn_shard_set *set, uint32_t shard, uint32_t file, const tn_shard_record *record,
+                           tn_error *error)
+{
+    struct stat known;
+    char *path = tn_shard_file_path(set, shard, file);
+    tn_status status = path ? TN_OK : tn_fail_memory(error);
+    if (status == TN_OK && stat(path, &known) != 0)
+        status = file == 0 ? tn_cannot_read(path, errno, error)
+                           : tn_shard_wrong(set, shard, error, "lacks its table of %s",
+                                            tn_house_table_name((tn_house_table)file));
+    else if (status == TN_OK)
+        status = compare_size(set, shard, file, (uint64_t)known.st_size, file_of(record, file).bytes, error);
+    free(path);
+    return status;
 }
 
 tn_status tn_shard_done(const tn_shard_set *set, uint32_t shard, tn_error *error)
 {
-    struct stat known;
     tn_shard_record record;
-    char *path = tn_shard_path(set, shard, "");
-    tn_status status = path ? tn_shard_record_read(set, shard, &record, error) : tn_fail_memory(error);
-    if (status == TN_OK && stat(path, &known) != 0)
-        status = tn_cannot_read(path, errno, error);
-    else if (status == TN_OK)
-        status = compare_size(set, shard, (uint64_t)known.st_size, record.bytes, error);
+    tn_status status = tn_shard_record_read(set, shard, &record, error);
+    for (uint32_t i = 0; status == TN_OK && i < tn_shard_files(set); i++)
+        status = file_done(set, shard, i, &record, error);
+    return status;
+}
+
+static tn_status file_same(const tn_shard_set *set, uint32_t shard, uint32_t file, const tn_shard_record *record,
+                           tn_error *error)
+{
+    tn_shard_file found, wanted = file_of(record, file);
+    char where[40];
+    char *path = tn_shard_file_path(set, shard, file);
+    tn_status status = path ? tn_hash_file(path, found.hash, &found.bytes, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = compare_size(set, shard, file, found.bytes, wanted.bytes, error);
+    if (status == TN_OK && strcmp(found.hash, wanted.hash) != 0)
+        status = tn_shard_wrong(set, shard, error, "was changed after it was written: its hash is another%s",
+                                in_table(set, file, where));
     free(path);
     return status;
 }
 
 tn_status tn_shard_same_as_record(const tn_shard_set *set, uint32_t shard, tn_error *error)
 {
-    tn_shard_record record, found;
-    char *path = tn_shard_path(set, shard, "");
-    tn_status status = path ? tn_shard_record_read(set, shard, &record, error) : tn_fail_memory(error);
-    if (status == TN_OK)
-        status = tn_hash_file(path, found.hash, &found.bytes, error);
-    if (status == TN_OK)
-        status = compare_size(set, shard, found.bytes, record.bytes, error);
-    if (status == TN_OK && strcmp(found.hash, record.hash) != 0)
-        status = tn_shard_wrong(set, shard, error, "was changed after it was written: its hash is another");
-    free(path);
+    tn_shard_record record;
+    tn_status status = tn_shard_record_read(set, shard, &record, error);
+    for (uint32_t i = 0; status == TN_OK && i < tn_shard_files(set); i++) {
+        if (i > 0)
+            status = file_done(set, shard, i, &record, error); /* says what is missing */
+        if (status == TN_OK)
+            status = file_same(set, shard, i, &record, error);
+    }
+    return status;
+}
+
+/* ---- hashes of the files of a shard of houses */
+
+tn_status tn_shard_record_files(const tn_shard_set *set, uint32_t shard, tn_shard_record *record, tn_error *error)
+{
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < tn_shard_files(set); i++) {
+        char *path = tn_shard_file_path(set, shard, i);
+        char *hash = i > 0 ? record->others[i - 1].hash : record->hash;
+        uint64_t *bytes = i > 0 ? &record->others[i - 1].bytes : &record->bytes;
+        status = path ? tn_hash_file(path, hash, bytes, error) : tn_fail_memory(error);
+        free(path);
+    }
     return status;
 }
 

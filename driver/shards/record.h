@@ -9,9 +9,16 @@
 
 #include "driver/shards/set.h"
 
+typedef struct tn_shard_file {
+    uint64_t bytes;
+    char hash[33];
+} tn_shard_file;
+
+/* others: of houses, the files of rooms and of faces. */
 typedef struct tn_shard_record {
     uint64_t bytes;
     char hash[33];
+    tn_shard_file others[TN_HOUSE_TABLES - 1];
     uint64_t lines, unread; /* answers: of the piece, and plans of it that could not be read */
 } tn_shard_record;
 
@@ -36,6 +43,9 @@ tn_status tn_shard_done(const tn_shard_set *set, uint32_t shard, tn_error *error
 /* Writes the record of a shard, with what was read for it (NULL: it holds no answers). TN_IO (E0902). */
 tn_status tn_shard_record_write(const tn_shard_set *set, uint32_t shard, const tn_shard_record *record,
                                 const tn_shard_read *read, tn_error *error);
+
+/* Fills it by the files that are there. */
+tn_status tn_shard_record_files(const tn_shard_set *set, uint32_t shard, tn_shard_record *record, tn_error *error);
 
 /* Reads what the record says was found. TN_INVALID (E1706) as of tn_shard_record_read. */
 tn_status tn_shard_read_of(const tn_shard_set *set, uint32_t shard, tn_shard_read *read, tn_error *error);

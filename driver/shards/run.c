@@ -406,6 +406,48 @@ static tn_status shard_enumerate(const tn_shard_set *set, const tn_ready_library
     return status;
 }
 
+/* ---- one shard of houses */
+
+static tn_status look_around(void *context, tn_error *error)
+{
+    const shard_writing_now *now = context;
+    claim_touch(now->claim, now->stale);
+    return tn_watch_check(now->watch, error);
+}
+
+/* How many houses of the set stand before those of the shard. */
+static tn_status count_before(const tn_shard_set *set, uint32_t shard, uint64_t *before, tn_error *error)
+{
+    mpz_t houses;
+    mpz_init(houses);
+    mpz_sub(houses, set->bounds[shard + 1], set->bounds[0]);
+    bool fits = mpz_sizeinbase(houses, 2) < 64;
+    mpz_sub(houses, set->bounds[shard], set->bounds[0]);
+    *before = fits ? mpz_get_ui(houses) : 0;
+    mpz_clear(houses);
+    return fits ? TN_OK : tn_fail(error, TN_LIMIT, E_SHARD_TOO_MANY, "more houses than the rows of tables can count");
+}
+
+static tn_status shard_houses(const tn_shard_set *set, const tn_shard_houses *houses, const shard_writing_now *now,
+                              tn_shard_record *record, tn_error *error)
+{
+    uint64_t before, written = 0;
+    mpz_t wanted;
+    char *path = tn_shard_stem(set, now->shard);
+    tn_status status = path ? count_before(set, now->shard, &before, error) : tn_fail_memory(error);
+    if (status == TN_OK)
+        status = houses->write(houses->context, path, set->bounds[now->shard], set->bounds[now->shard + 1], before,
+                               look_around, (void *)(uintptr_t)now, &written, error);
+    mpz_init(wanted);
+    tn_shard_plans(set, now->shard, wanted);
+    if (status == TN_OK && mpz_cmp_ui(wanted, written) != 0)
+        status = tn_fail(error, TN_INVALID, E_SHARD_MODULE,
+                         "%.200s/" TN_MANIFEST_NAME " has ranks of houses that the library does not", set->folder);
+    mpz_clear(wanted);
+    free(path);
+    return status == TN_OK ? tn_shard_record_files(set, now->shard, record, error) : status;
+}
+
 /* ---- a share of the shards */
 
 #define WAIT_FIRST 0.05 /* seconds until it is looked again whether others are done */
@@ -448,9 +490,20 @@ static tn_status write_file(const running *run, uint32_t shard, tn_claim *claim,
                : shard_enumerate(job->set, job->ready, &run->provenance->metadata, run->ranks, &now, error);
 }
 
+static tn_status write_houses(running *run, uint32_t shard, tn_claim *claim, tn_error *error)
+{
+    const tn_shards_job *job = run->job;
+    const shard_writing_now now = {shard, claim, job->stale, job->watch, NULL};
+    tn_shard_record record = {0};
+    tn_status status = shard_houses(job->set, job->houses, &now, &record, error);
+    return status == TN_OK ? tn_shard_record_write(job->set, shard, &record, NULL, error) : status;
+}
+
 /* A shard, and its record. It is hashed while it is written, so that it need not be read again. */
 static tn_status write_shard(running *run, uint32_t shard, tn_claim *claim, tn_error *error)
 {
+    if (tn_shard_set_houses(run->job->set))
+        return write_houses(run, shard, claim, error);
     bool answers = tn_shard_set_answers(run->job->set);
     tn_shard_read *read = answers ? calloc(1, sizeof *read) : NULL;
     tn_hashing *hashing = tn_hashing_new();
@@ -471,10 +524,11 @@ static tn_status write_shard(running *run, uint32_t shard, tn_claim *claim, tn_e
 }
 
 /* Is nothing there but a file, which a shard and its record replace? What a link leads to may belong to another set. */
-static tn_status check_place(const tn_shard_set *set, uint32_t shard, const char *ending, tn_error *error)
+static tn_status check_place(const tn_shard_set *set, uint32_t shard, uint32_t file, const char *ending,
+                             tn_error *error)
 {
     struct stat known;
-    char *path = tn_shard_path(set, shard, ending);
+    char *path = file > 0 ? tn_shard_file_path(set, shard, file) : tn_shard_path(set, shard, ending);
     tn_status status = path ? TN_OK : tn_fail_memory(error);
     if (path && lstat(path, &known) == 0 && !S_ISREG(known.st_mode))
         status = tn_shard_wrong(set, shard, error, "cannot be written: %s is there, and is no regular file",
@@ -490,9 +544,11 @@ static tn_status finish_shard(running *run, uint32_t shard, tn_claim *claim, tn_
     double begun = tn_seconds();
     if (tn_shard_recorded(run->job->set, shard)) /* by another, while it was being claimed */
         return tn_shard_done(run->job->set, shard, error);
-    tn_status status = check_place(run->job->set, shard, "", error);
+    tn_status status = TN_OK;
+    for (uint32_t i = 0; status == TN_OK && i < tn_shard_files(run->job->set); i++)
+        status = check_place(run->job->set, shard, i, "", error);
     if (status == TN_OK)
-        status = check_place(run->job->set, shard, TN_SHARD_RECORD, error);
+        status = check_place(run->job->set, shard, 0, TN_SHARD_RECORD, error);
     if (status == TN_OK)
         status = write_shard(run, shard, claim, error);
     if (status == TN_OK) {
@@ -687,7 +743,7 @@ tn_status tn_shards_run(const tn_shards_job *job, tn_shards_done *done, tn_error
     uint32_t count = job->end - job->begin;
     passed now = {0};
     tn_provenance provenance;
-    bool answers = tn_shard_set_answers(job->set);
+    bool answers = tn_shard_set_answers(job->set) || tn_shard_set_houses(job->set);
     if (!answers)
         tn_provenance_describe(job->opened, job->ready, job->set->rules_path, NULL, &provenance);
     running run = {.job = job,

@@ -43,11 +43,23 @@ void tn_claim_release(tn_claim *claim);
 /* Reads who holds a claim; false where there is none. */
 bool tn_claim_read(const char *path, tn_claimant *claimant);
 
+/* Called between two houses: whether to go on. */
+typedef tn_status tn_shard_between(void *context, tn_error *error);
+
+/* Writes the tables of the houses of a library: those from one rank on, before another. before: how many of the set's
+ * stand before them. They go to PATH.houses.csv and so on. *written: how many there were. */
+typedef struct tn_shard_houses {
+    void *context;
+    tn_status (*write)(void *context, const char *path, const mpz_t from, const mpz_t to, uint64_t before,
+                       tn_shard_between *between, void *of, uint64_t *written, tn_error *error);
+} tn_shard_houses;
+
 typedef struct tn_shards_job {
     const tn_shard_set *set;
     const tn_opened *opened; /* the set's module and library, which agree with it */
     const tn_ready_library *ready;
     const tn_answering *answering; /* what is said of plans; NULL where they are enumerated */
+    const tn_shard_houses *houses; /* of a set of houses; one thread calls it */
     uint32_t begin, end;           /* which shards */
     unsigned threads;
     double stale;   /* seconds after which a claim that nobody touches is taken over */

@@ -92,12 +92,19 @@ static const char *ending_of(const tn_shard_set *set)
     return tn_shard_set_answers(set) ? answers[set->inputs.answer] : endings[set->format];
 }
 
-tn_shard_name tn_shard_name_of(const tn_shard_set *set, uint32_t shard)
+tn_shard_name tn_shard_file_name(const tn_shard_set *set, uint32_t shard, uint32_t file)
 {
     tn_shard_name name;
-    snprintf(name.text, sizeof name.text, "shards/%03u/%06u%s%s", shard / TN_SHARDS_A_FOLDER, shard, ending_of(set),
+    bool tables = tn_shard_set_houses(set);
+    snprintf(name.text, sizeof name.text, "shards/%03u/%06u%s%s%s%s", shard / TN_SHARDS_A_FOLDER, shard,
+             tables ? "." : "", tables ? tn_house_table_name((tn_house_table)file) : "", ending_of(set),
              set->compressed ? ".zst" : "");
     return name;
+}
+
+tn_shard_name tn_shard_name_of(const tn_shard_set *set, uint32_t shard)
+{
+    return tn_shard_file_name(set, shard, 0);
 }
 
 char *tn_shard_set_path(const tn_shard_set *set, const char *name)
@@ -108,6 +115,18 @@ char *tn_shard_set_path(const tn_shard_set *set, const char *name)
 char *tn_shard_path(const tn_shard_set *set, uint32_t shard, const char *ending)
 {
     return tn_path_join(set->folder, tn_shard_name_of(set, shard).text, ending);
+}
+
+char *tn_shard_file_path(const tn_shard_set *set, uint32_t shard, uint32_t file)
+{
+    return tn_path_join(set->folder, tn_shard_file_name(set, shard, file).text, "");
+}
+
+char *tn_shard_stem(const tn_shard_set *set, uint32_t shard)
+{
+    char name[40];
+    snprintf(name, sizeof name, "shards/%03u/%06u%s", shard / TN_SHARDS_A_FOLDER, shard, ending_of(set));
+    return tn_path_join(set->folder, name, "");
 }
 
 tn_reader_options tn_shard_reading(const tn_shard_set *set, const tn_library *library)
@@ -263,7 +282,8 @@ tn_status tn_shard_set_agrees(const tn_shard_set *set, const tn_schema *schema, 
     }
     if (strcmp(library_hash, set->library_hash) != 0 || strcmp(schema_hash, set->schema_hash) != 0)
         return refuse_module(set, TN_MANIFEST_NAME " is about another library than the module has", error);
-    if (library && !within(set, library))
+    if (library && !tn_shard_set_houses(set) &&
+        !within(set, library)) /* ranks of houses are seen when they are written */
         return refuse_module(set, TN_MANIFEST_NAME " has ranks that the library does not", error);
     return TN_OK;
 }

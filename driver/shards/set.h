@@ -5,6 +5,9 @@
  * and what a shard holds depends on the manifest and the module alone. Beside a shard lies its record (record.h), and
  * while a worker writes it, its claim (run.h).
  *
+ * A shard of houses is three files, a table each (driver/house/tables.h); what is said of a shard's file is then about
+ * that of houses, and its record also tells of the others.
+ *
  * The shards of other sets are not plans of a library, but what `tartan match` or `tartan prune` says of the plans of
  * large files (inputs.h).
  *
@@ -13,6 +16,7 @@
 #ifndef TARTAN_DRIVER_SHARDS_SET_H
 #define TARTAN_DRIVER_SHARDS_SET_H
 
+#include "driver/house/tables.h"
 #include "driver/plan/answering.h"
 #include "driver/plan/library.h"
 #include "runtime/plan/text/stream.h"
@@ -34,6 +38,7 @@ typedef enum tn_shard_task {
     TN_TASK_MATCH,     /* which rules match the plans of a piece of a file */
     TN_TASK_PRUNE,     /* which of them a library keeps */
     TN_TASK_SAMPLE,    /* the plans of a sample that are in a stretch of ranks */
+    TN_TASK_HOUSES,    /* the houses of a stretch of ranks, as tables */
     TN_TASK_COUNT
 } tn_shard_task;
 
@@ -109,6 +114,18 @@ static inline bool tn_shard_set_answers(const tn_shard_set *set)
     return set->task == TN_TASK_MATCH || set->task == TN_TASK_PRUNE;
 }
 
+/* Are they tables of houses? */
+static inline bool tn_shard_set_houses(const tn_shard_set *set)
+{
+    return set->task == TN_TASK_HOUSES;
+}
+
+/* How many files a shard is. */
+static inline uint32_t tn_shard_files(const tn_shard_set *set)
+{
+    return tn_shard_set_houses(set) ? TN_HOUSE_TABLES : 1;
+}
+
 /* "FOLDER/NAME", and the path of a shard with an ending behind it ("": none). The caller frees them; NULL where out of
  * memory. */
 char *tn_shard_set_path(const tn_shard_set *set, const char *name);
@@ -120,13 +137,21 @@ typedef struct tn_shard_name {
 } tn_shard_name;
 tn_shard_name tn_shard_name_of(const tn_shard_set *set, uint32_t shard);
 
+/* The name and the path of one of its files (tn_house_table). */
+tn_shard_name tn_shard_file_name(const tn_shard_set *set, uint32_t shard, uint32_t file);
+char *tn_shard_file_path(const tn_shard_set *set, uint32_t shard, uint32_t file);
+
+/* What the paths of a shard of houses begin with: "FOLDER/shards/000/000000.csv", of which tables have their names
+ * before the ending. */
+char *tn_shard_stem(const tn_shard_set *set, uint32_t shard);
+
 /* How to open its shards. */
 tn_reader_options tn_shard_reading(const tn_shard_set *set, const tn_library *library);
 
 /* How to write one. `ranks`: how many the library has, borrowed. */
 tn_writer_options tn_shard_writing(const tn_shard_set *set, const tn_plan_metadata *metadata, mpz_srcptr ranks);
 
-/* How many plans a shard holds, and all do. `plans` is initialised. */
+/* How many plans (or houses) a shard holds, and all do. `plans` is initialised. */
 void tn_shard_plans(const tn_shard_set *set, uint32_t shard, mpz_t plans);
 void tn_shard_set_plans(const tn_shard_set *set, mpz_t plans);
 
