@@ -82,10 +82,11 @@ static bool split_by_value(tn_class_finder *finder, uint32_t field)
     return ok;
 }
 
-/* Counts the trays looked at, against a bound. */
+/* Counts the trays looked at, or the words of the diagram that is split, against a bound. */
 static tn_status look_at_trays(tn_class_finder *finder, tn_error *error)
 {
-    finder->looked += finder->schema->tray_count;
+    finder->looked +=
+        finder->schema->legal ? tn_kinds_of(&finder->classes->kinds)->nodes.words_used : finder->schema->tray_count;
     if (finder->looked <= TN_CLASS_LOOKS_MAX)
         return TN_OK;
     tn_fail(error, TN_LIMIT, E_TOO_MANY_TRAYS,
@@ -133,9 +134,9 @@ static tn_status split_by_steps(tn_class_finder *finder, const tn_sum_term *term
 
 static tn_status visit_weight(tn_class_finder *finder, const tn_sum_term *term, tn_error *error)
 {
-    if (finder->schema->legal)
-        return split_by_steps(finder, term, error);
     tn_status status = look_at_trays(finder, error);
+    if (status == TN_OK && finder->schema->legal)
+        return split_by_steps(finder, term, error);
     return status != TN_OK || split_by_weight(finder, term->weight) ? status : tn_fail_memory(error);
 }
 
@@ -175,11 +176,11 @@ static tn_status visit_field(tn_class_finder *finder, const tn_instruction *inst
     if (finder->seen_field[first] & seen)
         return TN_OK;
     finder->seen_field[first] |= seen;
-    if (finder->schema->legal)
-        return (values ? tn_kinds_by_values : tn_kinds_by_lengths)(&finder->classes->kinds, field, error);
     tn_status status = look_at_trays(finder, error);
     if (status != TN_OK)
         return status;
+    if (finder->schema->legal)
+        return (values ? tn_kinds_by_values : tn_kinds_by_lengths)(&finder->classes->kinds, field, error);
     return (values ? split_by_value : split_by_length)(finder, field) ? TN_OK : tn_fail_memory(error);
 }
 
@@ -250,9 +251,9 @@ static tn_status visit(tn_class_finder *finder, const tn_instruction *instructio
         if (finder->seen_spec[first])
             return TN_OK;
         finder->seen_spec[first] = 1;
-        if (finder->schema->legal)
-            return tn_kinds_by_spec(&finder->classes->kinds, first, error);
         tn_status status = look_at_trays(finder, error);
+        if (status == TN_OK && finder->schema->legal)
+            return tn_kinds_by_spec(&finder->classes->kinds, first, error);
         return status != TN_OK || split_by_spec(finder, first) ? status : tn_fail_memory(error);
     }
     default:

@@ -15,7 +15,7 @@ typedef struct tn_classes {
     uint32_t *size;           /* [count]: trays in the class */
 } tn_classes;
 
-#define TN_CLASS_LOOKS_MAX (UINT64_C(1) << 33) /* comparisons of a tray with a specifier: half a minute */
+#define TN_CLASS_LOOKS_MAX (UINT64_C(1) << 33) /* comparisons of a tray, or a word of a diagram: half a minute */
 
 static inline uint32_t tn_class_of(const tn_classes *classes, tn_tray tray)
 {
@@ -23,7 +23,7 @@ static inline uint32_t tn_class_of(const tn_classes *classes, tn_tray tray)
 }
 
 /* The classes that the functions given, and those that they call, need. Free with tn_classes_free.
- * TN_LIMIT (E0803) where trays times specifiers pass TN_CLASS_LOOKS_MAX. */
+ * TN_LIMIT (E0803) where trays, or words of their diagram, times specifiers pass TN_CLASS_LOOKS_MAX. */
 tn_status tn_classes_new(const tn_schema *schema, const uint32_t *functions, size_t count, tn_classes **classes,
                          tn_error *error);
 /* The same where trays also differ by what they count in SUM records, and by their parts. */
