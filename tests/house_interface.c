@@ -50,16 +50,32 @@ static tartan_status count(const question *q, tartan_error *error)
     return status;
 }
 
+/* A plan that is asked about, if `text` is one. */
+typedef struct asked_plan {
+    uint32_t trays[64];
+    tartan_on_plan plan;
+    const tartan_on_plan *on; /* NULL: all plans */
+} asked_plan;
+
+static tartan_status read_plan(const question *q, const char *text, asked_plan *asked, tartan_error *error)
+{
+    *asked = (asked_plan){0};
+    if (!text)
+        return TARTAN_OK;
+    asked->plan.trays = asked->trays;
+    asked->on = &asked->plan;
+    return tartan_plan_read(tartan_house_library_schema(q->library), text, strlen(text), asked->trays, 64,
+                            &asked->plan.length, error);
+}
+
 /* on PLAN: how many houses are on it. */
 static tartan_status count_on(const question *q, tartan_error *error)
 {
     char *text = NULL;
-    uint32_t trays[64];
-    tartan_on_plan plan = {.trays = trays};
-    tartan_status status = tartan_plan_read(tartan_house_library_schema(q->library), q->words[1], strlen(q->words[1]),
-                                            trays, 64, &plan.length, error);
+    asked_plan asked;
+    tartan_status status = read_plan(q, q->words[1], &asked, error);
     if (status == TARTAN_OK)
-        status = tartan_house_library_count_on(q->library, &plan, NULL, &text, error);
+        status = tartan_house_library_count_on(q->library, asked.on, NULL, &text, error);
     if (status == TARTAN_OK)
         print_text(text);
     return status;
@@ -99,25 +115,31 @@ static tartan_status print_all(const tartan_houses *houses, tartan_error *error)
     return status;
 }
 
-/* sample SEED COUNT */
+/* sample SEED COUNT [PLAN] */
 static tartan_status sample(const question *q, tartan_error *error)
 {
     tartan_houses *houses = NULL;
-    tartan_status status = tartan_house_sample(q->library, NULL, strtoull(q->words[1], NULL, 10),
-                                               strtoul(q->words[2], NULL, 10), NULL, &houses, error);
+    asked_plan asked;
+    tartan_status status = read_plan(q, q->words[3], &asked, error);
+    if (status == TARTAN_OK)
+        status = tartan_house_sample(q->library, asked.on, strtoull(q->words[1], NULL, 10),
+                                     strtoul(q->words[2], NULL, 10), NULL, &houses, error);
     if (status == TARTAN_OK)
         status = print_all(houses, error);
     tartan_houses_free(houses);
     return status;
 }
 
-/* most MEASURE COUNT, least MEASURE COUNT: each value and the house that has it. */
+/* most MEASURE COUNT [PLAN], least MEASURE COUNT [PLAN]: each value and the house that has it. */
 static tartan_status best(const question *q, tartan_error *error)
 {
     tartan_houses *houses = NULL;
     const tartan_wish wish = {q->words[1], strcmp(q->words[0], "most") == 0};
-    tartan_status status =
-        tartan_house_best(q->library, NULL, &wish, 1, strtoul(q->words[2], NULL, 10), NULL, &houses, error);
+    asked_plan asked;
+    tartan_status status = read_plan(q, q->words[3], &asked, error);
+    if (status == TARTAN_OK)
+        status =
+            tartan_house_best(q->library, asked.on, &wish, 1, strtoul(q->words[2], NULL, 10), NULL, &houses, error);
     for (size_t i = 0; status == TARTAN_OK && i < tartan_houses_count(houses); i++) {
         printf("%s\t", tartan_houses_value(houses, i, 0));
         status = print_line(tartan_houses_house(houses, i), error);
@@ -204,8 +226,8 @@ int main(int argc, char **argv)
     tartan_module *module = NULL;
     question q = {0};
     char line[4096];
-    if (argc != 4) {
-        fputs("usage: house_interface STDLIB FILE LIBRARY\n", stderr);
+    if (argc < 4 || argc > 5) {
+        fputs("usage: house_interface STDLIB FILE LIBRARY [MAX-HOUSES]\n", stderr);
         return 2;
     }
     const char *folders[] = {argv[1]};
@@ -214,6 +236,7 @@ int main(int argc, char **argv)
     options.folders = folders;
     options.folder_count = 1;
     which.name = argv[3];
+    which.max_houses = argc > 4 ? strtoull(argv[4], NULL, 10) : 0;
     tartan_status status = tartan_compile_file(argv[2], &options, &module, &error);
     if (status == TARTAN_OK)
         status = tartan_house_library_open(module, &which, NULL, &q.library, &error);

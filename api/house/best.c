@@ -1,56 +1,26 @@
 /* The C interface to the best houses of a library by measures. */
-#include "runtime/house/count/houses.h"
-
 #include <stdlib.h>
 
 #include "api/house/houses.h"
-#include "driver/plan/library.h"
-#include "runtime/house/rank/rank.h"
+#include "ask/house/ordered.h"
 #include "runtime/plan/measure/amount.h"
 
-/* The measures made ready, what was found by them, and where the houses go. */
+/* The houses in order, and where the best of them go. */
 typedef struct search {
-    tn_numbered *n;
-    tn_house_weights *weights[TN_WEIGHED_MAX];
-    tn_house_measures measures;
-    tn_amount_unit units[TN_WEIGHED_MAX];
-    tn_houses *houses;
-    int64_t values[TN_WEIGHED_MAX]; /* of the point at hand */
+    tn_ordered_houses by;
     tartan_houses *made;
     size_t wanted;
 } search;
-
-/* What is wrong is said. */
-static tn_status find_measures(search *s, const tartan_wish *wishes)
-{
-    tn_numbered *n = s->n;
-    const tn_module *module = n->form.module;
-    tn_error error;
-    for (uint32_t k = 0; k < s->measures.count; k++) {
-        uint32_t measure;
-        tn_status status = tn_house_measure_choose(n->session->opened, wishes[k].measure, n->record->form, &measure);
-        if (status != TN_OK)
-            return status;
-        tn_house_measured of = tn_house_measured_of(module, measure);
-        if (tn_house_weights_new(&n->form, of, &s->weights[k], &error) != TN_OK)
-            return tn_session_fail(n->session, &error);
-        s->units[k] = tn_amount_unit_of(n->schema, module->SUM_records[of.sum].power);
-        s->measures.of[k] = s->weights[k];
-        s->measures.most[k] = wishes[k].most;
-    }
-    return TN_OK;
-}
 
 static tn_status write_values(const search *s, tn_api_listed *item, tn_error *error)
 {
     bool written = true;
     mpq_t value;
     mpq_init(value);
-    for (uint32_t k = 0; written && k < s->measures.count; k++) {
+    for (uint32_t k = 0; written && k < s->by.measures.count; k++) {
         tn_buffer text = {0};
-        mpq_set_si(value, s->values[k], 1);
-        mpq_mul(value, value, s->weights[k]->shown);
-        written = tn_amount_write_exact(s->units[k], value, &text);
+        tn_ordered_value(&s->by, k, value);
+        written = tn_amount_write_exact(s->by.units[k], value, &text);
         item->values[k] = text.data;
     }
     mpq_clear(value);
@@ -61,45 +31,43 @@ static tn_status add_best(void *context, const tn_house *house, bool *stop, tn_e
 {
     search *s = context;
     tn_api_listed *added;
-    tn_status status = tn_numbered_judge(s->n, house, error);
+    tn_status status = tn_numbered_judge(s->by.n, house, error);
     if (status == TN_OK)
         status = tn_api_houses_add(s->made, house, &added, error);
     *stop = s->made->count == s->wanted;
     return status == TN_OK ? write_values(s, added, error) : status;
 }
 
-static tn_status find_houses(search *s, const tn_plan *on, tn_error *error)
+static tn_status find_houses(search *s, tn_error *error)
 {
-    tn_numbered *n = s->n;
-    mpz_t count;
-    tn_houses_what what = {.measures = &s->measures, .aim = TN_HOUSES_LEAST, .wanted = s->wanted};
-    if (on) {
-        what.only = on->trays;
-        what.length = (uint32_t)on->length;
+    tn_status status = tn_ordered_find(&s->by, TN_HOUSES_LEAST, s->wanted, error);
+    for (size_t i = 0; status == TN_OK && s->made->count < s->wanted && i < tn_ordered_points(&s->by); i++) {
+        tn_ordered_come(&s->by, i);
+        status = tn_ordered_each(&s->by, TN_ALIKE_NOTHING, add_best, s, error);
     }
-    tn_status status = tn_numbered_of(n, &what, &s->houses, error);
-    mpz_init(count);
-    for (size_t i = 0; status == TN_OK && s->made->count < s->wanted && i < tn_houses_points(s->houses); i++) {
-        tn_houses_point(s->houses, i, s->values, count);
-        status = tn_houses_point_each(s->houses, i, TN_ALIKE_NOTHING, add_best, s, error);
-    }
-    mpz_clear(count);
     return status;
 }
 
 /* What is wrong is said. */
-static tn_status find_best(search *s, const tartan_on_plan *plan, const tartan_wish *wishes)
+static tn_status find_best(search *s, const tartan_on_plan *plan, const tartan_wish *wishes, uint32_t count)
 {
+    tartan_house_library *library = s->made->library;
+    tn_numbered *n = &library->numbered;
+    tn_ordered_wish by[TN_WEIGHED_MAX];
     tn_error error;
-    const tn_plan *of;
-    tn_status status = find_measures(s, wishes);
-    if (status != TN_OK)
-        return status;
-    status = tn_api_houses_on(s->made->library, plan, &of, &error);
-    if (status == TN_OK && s->wanted > 0)
-        status = find_houses(s, of, &error);
-    tn_houses_free(s->houses);
-    return status == TN_OK ? TN_OK : tn_session_fail(s->n->session, &error);
+    const tn_plan *on;
+    if (tn_api_houses_on(library, plan, &on, &error) != TN_OK)
+        return tn_session_fail(n->session, &error);
+    for (uint32_t k = 0; k < count; k++)
+        by[k] = (tn_ordered_wish){wishes[k].measure, wishes[k].most};
+    tn_status status = tn_ordered_begin(&s->by, n, on, by, count);
+    if (status == TN_OK && s->wanted > 0) {
+        status = find_houses(s, &error);
+        if (status != TN_OK)
+            tn_session_fail(n->session, &error);
+    }
+    tn_ordered_clear(&s->by);
+    return status;
 }
 
 static tartan_status check_wishes(const tartan_wish *wishes, size_t count, tartan_error *error)
@@ -126,17 +94,12 @@ tartan_status tartan_house_best(tartan_house_library *library, const tartan_on_p
         status = tn_api_houses_begin(library, watch, error);
     if (status != TARTAN_OK)
         return status;
-    search s = {.n = &library->numbered,
-                .measures = {.count = (uint32_t)wish_count},
-                .made = tn_api_houses_new(library),
-                .wanted = count};
+    search s = {.made = tn_api_houses_new(library), .wanted = count};
     if (!s.made) {
         tn_error found;
         return tn_api_houses_end(library, tn_fail_memory(&found), &found, error);
     }
     s.made->wishes = (uint32_t)wish_count;
-    status = tn_api_houses_said(library, find_best(&s, plan, wishes), error);
-    for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
-        tn_house_weights_free(s.weights[k]);
+    status = tn_api_houses_said(library, find_best(&s, plan, wishes, (uint32_t)wish_count), error);
     return tn_api_houses_give(s.made, status, houses);
 }

@@ -385,62 +385,32 @@ tn_status tn_ask_best(tn_session *session, const tn_best_request *request, tn_re
 
 /* ---- the best houses */
 
+/* Makes the measures ready, and takes their whole names. */
 static tn_status find_measures(tn_houses_search *s)
 {
-    const tn_module *module = s->n.form.module;
-    tn_error error;
-    for (uint32_t k = 0; k < s->found.count; k++) {
-        uint32_t measure;
-        tn_status status =
-            tn_house_measure_choose(s->n.session->opened, s->found.names[k], s->n.record->form, &measure);
-        if (status != TN_OK)
-            return status;
-        tn_house_measured of = tn_house_measured_of(module, measure);
-        if (tn_house_weights_new(&s->n.form, of, &s->weights[k], &error) != TN_OK)
-            return tn_session_fail(s->n.session, &error);
-        s->found.names[k] = tn_text(module, s->weights[k]->of.name);
-        s->found.units[k] = tn_amount_unit_of(s->n.schema, module->SUM_records[of.sum].power);
-        s->measures.of[k] = s->weights[k];
-        s->measures.most[k] = s->found.most[k];
+    tn_ordered_wish wishes[TN_WEIGHED_MAX];
+    for (uint32_t k = 0; k < s->found.count; k++)
+        wishes[k] = (tn_ordered_wish){s->found.names[k], s->found.most[k]};
+    tn_status status = tn_ordered_begin(&s->by, &s->n, s->plan.trays ? &s->plan : NULL, wishes, s->found.count);
+    for (uint32_t k = 0; status == TN_OK && k < s->found.count; k++) {
+        s->found.names[k] = tn_ordered_name(&s->by, k);
+        s->found.units[k] = s->by.units[k];
     }
-    s->measures.count = s->found.count;
-    return TN_OK;
-}
-
-/* The values of so many houses. */
-static tn_status find_values(tn_houses_search *s, tn_houses_aim aim, uint64_t wanted, tn_houses **houses,
-                             tn_error *error)
-{
-    tn_session *session = s->n.session;
-    tn_houses_what what = {.measures = s->found.count ? &s->measures : NULL, .aim = aim, .wanted = wanted};
-    if (s->plan.trays) {
-        what.only = s->plan.trays;
-        what.length = (uint32_t)s->plan.length;
-    }
-    tn_session_begins(session, "looking for the best");
-    tn_status status = tn_houses_of(&s->n.form, s->n.record, s->n.plans, &what, s->n.max_states, houses, error);
-    tn_session_ends(session);
     return status;
 }
 
-/* By walks: those on one plan are gone through. */
-static tn_status find_walked(tn_houses_search *s, tn_houses_aim aim, tn_error *error)
+static void note_without(const tn_houses_search *s)
 {
-    tn_session *session = s->n.session;
-    tn_session_begins(session, "looking for the best");
-    tn_status status = tn_walked_find(&s->n, &s->plan, &s->measures, aim == TN_HOUSES_FRONT, &s->walked, error);
-    tn_session_ends(session);
-    if (status == TN_OK && s->walked.without > 0)
-        tn_session_note(session, "%" PRIu64 " house%s without a value %s left out", s->walked.without,
-                        s->walked.without > 1 ? "s" : "", s->walked.without > 1 ? "are" : "is");
-    return status;
+    uint64_t without = s->by.walked.without;
+    if (without > 0)
+        tn_session_note(s->n.session, "%" PRIu64 " house%s without a value %s left out", without,
+                        without > 1 ? "s" : "", without > 1 ? "are" : "is");
 }
 
 tn_status tn_houses_search_begin(tn_houses_search *s, tn_session *session, const tn_house_asked *asked)
 {
     tn_error error;
     *s = (tn_houses_search){.wanted = asked->wanted, .diverse = asked->diverse, .reached = asked->wanted};
-    mpz_init(s->count);
     if (asked->diverse && asked->wanted > TN_DIVERSE_HOUSES_MAX)
         return refuse_many(session, asked->wanted, TN_DIVERSE_HOUSES_MAX, "houses");
     tn_status status = wishes_take(session, asked->by, asked->by_count, asked->by_least, &s->found);
@@ -450,22 +420,19 @@ tn_status tn_houses_search_begin(tn_houses_search *s, tn_session *session, const
         status = find_measures(s);
     if (status != TN_OK)
         return status;
-    status = s->plan.trays && tn_walked_asked(&s->n, &s->measures)
-                 ? find_walked(s, asked->aim, &error)
-                 : find_values(s, asked->aim, asked->wanted, &s->houses, &error);
-    return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
+    status = tn_ordered_find(&s->by, asked->aim, asked->wanted, &error);
+    if (status != TN_OK)
+        return tn_session_fail(session, &error);
+    note_without(s);
+    return TN_OK;
 }
 
 void tn_houses_search_end(tn_houses_search *s)
 {
-    tn_houses_free(s->houses);
-    tn_walked_clear(&s->walked);
+    tn_ordered_clear(&s->by);
     tn_lines_taken_clear(&s->taken);
-    for (uint32_t k = 0; k < TN_WEIGHED_MAX; k++)
-        tn_house_weights_free(s->weights[k]);
     free(s->plan.trays);
     tn_numbered_close(&s->n);
-    mpz_clear(s->count);
 }
 
 tn_status tn_houses_search_give(tn_session *session, const tn_house_asked *asked,
@@ -477,31 +444,6 @@ tn_status tn_houses_search_give(tn_session *session, const tn_house_asked *asked
         status = give(&search, answer);
     tn_houses_search_end(&search);
     return status;
-}
-
-size_t tn_houses_search_points(const tn_houses_search *s)
-{
-    return s->houses ? tn_houses_points(s->houses) : s->walked.point_count;
-}
-
-/* Comes to a point. */
-static void search_point(tn_houses_search *s, size_t point)
-{
-    s->point = point;
-    if (s->houses)
-        tn_houses_point(s->houses, point, s->values, s->count);
-    else
-        mpz_set_ui(s->count, (unsigned long)(s->walked.points[point + 1] - s->walked.points[point]));
-}
-
-void tn_houses_search_value(const tn_houses_search *s, uint32_t k, mpq_t value)
-{
-    if (!s->houses) {
-        mpq_set(value, s->walked.items[s->walked.points[s->point]].values[k]);
-        return;
-    }
-    mpq_set_si(value, s->values[k], 1);
-    mpq_mul(value, value, s->weights[k]->shown);
 }
 
 /* ---- houses of the values */
@@ -529,17 +471,16 @@ static tn_status judge_house(void *context, const tn_house *house, bool *stop, t
 tn_status tn_houses_search_of_point(tn_houses_search *s, size_t point, tn_house_alike alike, tn_house_each *each,
                                     void *context, tn_error *error)
 {
-    search_point(s, point);
     judged j = {.search = s, .alike = alike, .each = each, .context = context};
-    return s->houses ? tn_houses_point_each(s->houses, point, alike, judge_house, &j, error)
-                     : tn_walked_each(&s->walked, point, judge_house, &j, error);
+    tn_ordered_come(&s->by, point);
+    return tn_ordered_each(&s->by, alike, judge_house, &j, error);
 }
 
 static tn_status each_of_points(tn_houses_search *s, tn_house_alike alike, tn_house_each *each, void *context,
                                 tn_error *error)
 {
     tn_status status = TN_OK;
-    for (size_t i = 0; status == TN_OK && s->given < s->wanted && i < tn_houses_search_points(s); i++)
+    for (size_t i = 0; status == TN_OK && s->given < s->wanted && i < tn_ordered_points(&s->by); i++)
         status = tn_houses_search_of_point(s, i, alike, each, context, error);
     return status;
 }
@@ -551,9 +492,9 @@ static bool may_have_more(tn_houses_search *s)
 {
     mpz_t known, plans;
     mpz_inits(known, plans, NULL);
-    for (size_t i = 0; i < tn_houses_search_points(s); i++) {
-        search_point(s, i);
-        mpz_add(known, known, s->count);
+    for (size_t i = 0; i < tn_ordered_points(&s->by); i++) {
+        tn_ordered_come(&s->by, i);
+        mpz_add(known, known, s->by.count);
     }
     tn_library_kept(s->n.plans, TN_ALL_LENGTHS, plans);
     bool more = mpz_cmp_ui(known, s->reached) >= 0 && mpz_cmp_ui(plans, s->taken.count) > 0 && !s->plan.trays;
@@ -565,11 +506,10 @@ static bool may_have_more(tn_houses_search *s)
 static tn_status reach_further(tn_houses_search *s, bool *more, tn_error *error)
 {
     enum { FURTHER = 1000 };
-    tn_houses *houses = NULL;
     *more = s->reached <= INT64_MAX / FURTHER;
     if (!*more)
         return TN_OK;
-    tn_status status = find_values(s, TN_HOUSES_LEAST, s->reached * FURTHER, &houses, error);
+    tn_status status = tn_ordered_find(&s->by, TN_HOUSES_LEAST, s->reached * FURTHER, error);
     *more = status == TN_OK;
     if (status == TN_LIMIT) {
         tn_session_note(s->n.session,
@@ -578,12 +518,9 @@ static tn_status reach_further(tn_houses_search *s, bool *more, tn_error *error)
                         s->reached);
         return TN_OK;
     }
-    if (status != TN_OK)
-        return status;
-    tn_houses_free(s->houses);
-    s->houses = houses;
-    s->reached *= FURTHER;
-    return TN_OK;
+    if (status == TN_OK)
+        s->reached *= FURTHER;
+    return status;
 }
 
 static tn_status each_diverse(tn_houses_search *s, tn_house_each *each, void *context, tn_error *error)
@@ -618,7 +555,7 @@ static tn_status give_house(void *context, const tn_house *house, bool *stop, tn
     giving *g = context;
     tn_house same = *house; /* it is not the taker's */
     for (uint32_t k = 0; k < g->search->found.count; k++)
-        tn_houses_search_value(g->search, k, g->values[k]);
+        tn_ordered_value(&g->search->by, k, g->values[k]);
     const tn_found_one found = {
         .trays = house->trays, .length = (uint32_t)house->length, .house = &same, .values = g->values};
     *stop = ++g->search->given == g->search->wanted;
@@ -637,7 +574,7 @@ static tn_status give(tn_houses_search *search, tn_reply *answer)
     if (status == TN_OK && !finds.ended)
         status = tn_houses_search_each(search, give_house, &g, &error);
     tn_wishes_clear(g.values);
-    if (status == TN_OK && !finds.ended && search->walked.without == 0)
+    if (status == TN_OK && !finds.ended && search->by.walked.without == 0)
         tn_numbered_say_few(&search->n, search->plan.trays != NULL, search->given, search->wanted);
     return tn_finds_end(&finds, status, &error);
 }

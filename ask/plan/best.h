@@ -4,7 +4,7 @@
 
 #include "ask/house/diverse.h"
 #include "ask/house/numbered.h"
-#include "ask/house/walked.h"
+#include "ask/house/ordered.h"
 #include "ask/plan/found.h"
 #include "ask/session/spelled.h"
 #include "runtime/base/picture.h"
@@ -65,17 +65,11 @@ typedef struct tn_houses_search {
     tn_numbered n;
     tn_wishes found; /* what is wished, with units and whole names */
     tn_plan plan;    /* if one is given */
-    tn_house_weights *weights[TN_WEIGHED_MAX];
-    tn_house_measures measures;
-    tn_houses *houses;              /* or NULL: */
-    tn_walked_houses walked;        /* they were gone through */
-    size_t point;                   /* the one at hand, */
-    int64_t values[TN_WEIGHED_MAX]; /* of `houses` its values */
-    mpz_t count;                    /* houses there */
-    uint64_t given, wanted;         /* houses so far, and in all */
-    bool diverse;                   /* they differ as people see it */
-    tn_lines_taken taken;           /* then: those given */
-    uint64_t reached;               /* and: of so many houses the values are known, at least */
+    tn_ordered_houses by;
+    uint64_t given, wanted; /* houses so far, and in all */
+    bool diverse;           /* they differ as people see it */
+    tn_lines_taken taken;   /* then: those given */
+    uint64_t reached;       /* and: of so many houses the values are known, at least */
 } tn_houses_search;
 
 /* What is searched: the library, one plan of it or NULL, how many of the best are wanted, and by which measures. */
@@ -102,12 +96,6 @@ tn_status tn_houses_search_give(tn_session *session, const tn_house_asked *asked
  * before. */
 tn_status tn_houses_search_of_point(tn_houses_search *search, size_t point, tn_house_alike alike, tn_house_each *each,
                                     void *context, tn_error *error);
-
-/* How many values there are. */
-size_t tn_houses_search_points(const tn_houses_search *search);
-
-/* The value of measure k at the point at hand, in nanometres to its power. */
-void tn_houses_search_value(const tn_houses_search *search, uint32_t k, mpq_t value);
 
 /* Calls `each` with the best houses, by value and then by rank, until it stops; of a point with those that it has. It
  * is `each` who counts them in search->given. Diverse ones: the best on each plan; if that is not enough, those whose

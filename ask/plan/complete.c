@@ -657,8 +657,8 @@ static tn_status give_houses(const tn_houses_search *search, tn_open_choices *c,
     c->wishes = search->found;
     c->open.most = c->wishes.most[0];
     if (c->wishes.count)
-        mpq_set(c->step, search->weights[0]->shown);
-    tn_status status = tn_houses_complete(search->houses, &c->open, &c->found, &error);
+        mpq_set(c->step, search->by.weights[0]->shown);
+    tn_status status = tn_houses_complete(search->by.houses, &c->open, &c->found, &error);
     if (status == TN_OK)
         status = give(c, answer, &error);
     else

@@ -491,7 +491,7 @@ static tn_status say_values(const collection *c, pictured *p, tn_error *error)
     mpq_init(value);
     bool ok = true;
     for (uint32_t k = 0; ok && k < s->found.count && used < SAID_SIZE; k++) {
-        tn_houses_search_value(s, k, value);
+        tn_ordered_value(&s->by, k, value);
         char *text = tn_wish_caption(&s->found, k, value);
         ok = text != NULL;
         if (ok)
@@ -500,7 +500,7 @@ static tn_status say_values(const collection *c, pictured *p, tn_error *error)
         free(text);
     }
     mpq_clear(value);
-    char *digits = c->front ? tn_digits(s->count, true) : NULL;
+    char *digits = c->front ? tn_digits(s->by.count, true) : NULL;
     if (digits && used < SAID_SIZE)
         snprintf(p->said + used, SAID_SIZE - used, "; %s house%s", digits, strcmp(digits, "1") == 0 ? "" : "s");
     ok = ok && (digits || !c->front);
@@ -657,7 +657,7 @@ static tn_status find_wanted(page *p, const tn_houses_search *search)
 {
     if (!p->c.front)
         return TN_OK;
-    p->wanted = tn_houses_search_points(search);
+    p->wanted = tn_ordered_points(&search->by);
     return p->wanted <= TN_HOUSES_DRAWN_MAX
                ? TN_OK
                : tn_session_refuse(p->session, "leave out -o, or name a text file: it has a house of each",

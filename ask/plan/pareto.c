@@ -187,9 +187,9 @@ static tn_status set_house(tn_houses_search *search, size_t i, tn_front_point *p
         return status;
     tn_wishes_room(values);
     for (uint32_t k = 0; k < search->found.count; k++)
-        tn_houses_search_value(search, k, values[k]);
+        tn_ordered_value(&search->by, k, values[k]);
     point->has_houses = point->has_house = true;
-    mpz_set(point->houses, search->count);
+    mpz_set(point->houses, search->by.count);
     status = set_values(&search->found, values, point, error);
     tn_wishes_clear(values);
     return status;
@@ -198,7 +198,7 @@ static tn_status set_house(tn_houses_search *search, size_t i, tn_front_point *p
 static tn_status give_houses(tn_houses_search *search, tn_reply *answer)
 {
     tn_error error;
-    size_t count = tn_houses_search_points(search);
+    size_t count = tn_ordered_points(&search->by);
     tn_status status = tn_reply_new(&tn_message_found_front, answer, &error);
     tn_found_front *front = answer->value;
     if (status == TN_OK)

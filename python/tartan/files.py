@@ -159,11 +159,12 @@ class File:
         own = [found.name for found in self.shown.libraries if (found.plans is not None) == (kind == "house_library")]
         return self._only("library of houses" if kind == "house_library" else "library", None, names, own)
 
-    def houses(self, name: Optional[str] = None, progress: Progress = None) -> HouseLibrary:
-        """A library of houses, by its name; without one, its only one."""
+    def houses(self, name: Optional[str] = None, progress: Progress = None, max_houses: Optional[int] = None) -> HouseLibrary:
+        """A library of houses, by its name; without one, its only one. max_houses: if walks are asked for, the most houses
+        that are looked at one by one; 100,000 on one plan, and 5,000 that are drawn of all, unless given."""
         from tartan.houses import HouseLibrary
         of = name if name is not None else self._own_library("house_library", self.house_libraries)
-        return HouseLibrary(self, of, progress)
+        return HouseLibrary(self, of, progress, max_houses)
 
     # ---- asking
 

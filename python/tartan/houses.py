@@ -31,11 +31,12 @@ class HouseLibrary:
     """A library of houses of a rule file: houses["#12:3"] is the house of a number (the rank of its plan, and its place
     on that plan), houses[5] that of a rank. It and its houses belong to one thread at a time together."""
 
-    def __init__(self, file_, name_, progress=None):
+    def __init__(self, file_, name_, progress=None, max_houses=None):
         self.file = file_
         options = ffi.new("tartan_house_library_options *", lib.tartan_house_library_options_init())
         kept = name(name_)
         options.name = kept
+        options.max_houses = max_houses or 0
         self._handle = made("tartan_house_library", lib.tartan_house_library_free, [file_._module],
                             lib.tartan_house_library_open, file_._module, options, Watch(progress))
         self.name = text(lib.tartan_house_library_name(self._handle))
@@ -89,7 +90,8 @@ class HouseLibrary:
                                 self._handle, encoded, len(encoded)))
 
     def sample(self, count: int, seed: int = 0, plan: Optional[PlanLike] = None, progress: Progress = None) -> List[House]:
-        """So many different houses drawn uniformly, in the order of their ranks; all of them if there are fewer."""
+        """So many different houses drawn uniformly, in the order of their ranks; all of them if there are fewer. Of a
+        library whose clauses ask for walks, houses of all plans are tried: those that were found may be fewer, too."""
         on, _kept = self._on(plan)
         return self._list(lib.tartan_house_sample, self._handle, on, seed, count, Watch(progress))
 

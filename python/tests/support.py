@@ -20,6 +20,25 @@ measure third = sum(width) / 3'
 test pair { match [8' lid hall | 12' lid bed] reject [8' - hall] }
 """
 
+#: Houses whose clauses and measures ask for walks: what only single houses, and those on one plan, have a value of.
+WALKED = """schema row { width role length = 3m | 4m  zone house role band = space(4m) }
+form f of row {
+  storey ground 2.7m  wall 200mm  partition 100mm  deck 300mm  roof 200mm  way 800mm
+  function first at cell(3m)
+  function second at cell(any)
+  opening door wide 900mm high 2m passage sliding
+  face cell(any) beside cell(any) = door | wall
+  face cell(any) outside left = door
+  face cell(any) outside = wall
+  tile tables for second { item table left 500mm..1.2m, back 500mm..1.2m }
+  tile bare for second { }
+}
+library rows using row { trays 1..3 }
+library near from rows in f { require walk(cell(any), to outside) <= 6.95m }
+measure far = walk(cell(any), to outside)
+measure exits = exits(cell(any))
+"""
+
 #: The same without a clause, and with a weight.
 EDITED = BOXES.replace(" prune pair", "")
 WEIGHED = BOXES.replace("require hall }", "require hall weight tray(bed) 5 }")

@@ -3,9 +3,10 @@ import json
 import math
 import os
 import unittest
+from fractions import Fraction
 
 import tartan
-from support import Folder, command
+from support import WALKED, Folder, command
 from tartan import _arrays, meshes
 
 FIELD = """box (-2, -2, -2) .. (2, 2, 2)
@@ -199,6 +200,28 @@ class Houses(unittest.TestCase):
         said = [line for line in command("sample", "cottage", 3, "--library", "cottages", "--seed", 5).split("\n") if line and line[0] != "#"]
         self.assertEqual([str(house) for house in self.houses.sample(3, seed=5)], said)
         self.assertTrue(all(house.rank() >= 0 for house in self.houses.sample(3, seed=5)))
+
+    def test_walks(self):
+        plan = "3m space:4m | 4m space:4m | 3m space:4m"
+        with Folder() as folder:
+            path = folder.write("walked.plan", WALKED)
+            houses = tartan.File(path).houses()
+            for wish in ("least", "most"):
+                for measure in ("far", "exits"):
+                    best = houses.best(20, plan=plan, **{wish: measure})
+                    wanted = [json.loads(line) for line in command("best", path, 20, "--plan", plan, f"--{wish}", measure, "--library", "near", "--format", "json").splitlines()]
+                    self.assertEqual([str(house) for house in best], [house["house"] for house in wanted])
+                    self.assertEqual([house.values[0] for house in best], [Fraction(house["value"]) for house in wanted])
+                    self.assertGreater(len(best), 5)
+            kept = command("enumerate", path, "--library", "near", "--plan", plan).splitlines()
+            self.assertEqual(houses.count(plan=plan), len(kept))
+            self.assertEqual([str(house) for house in houses.sample(len(kept) + 1, plan=plan)], kept)
+            self.assertEqual([house["house"] for house in houses.ask("enumerate", plan=plan).houses], kept)
+            self.assertEqual([str(house) for house in houses.sample(4, seed=3)], command("sample", path, 4, "--library", "near", "--seed", 3).splitlines())
+            with self.assertRaisesRegex(tartan.Error, "more than 5 on this plan"):
+                tartan.File(path).houses(max_houses=5).best(1, plan=plan, least="far")
+            with self.assertRaisesRegex(tartan.Error, "how one walks"):
+                houses.count()
 
     def test_files(self):
         house = self.houses.sample(1, seed=9)[0]

@@ -9,7 +9,7 @@ cd "$here/../.."
 
 # asked QUESTION WORD...: of the library at hand.
 asked() {
-    (IFS=$'\t' && printf '%s\n' "$*") | "$program" stdlib "$file" "$library"
+    (IFS=$'\t' && printf '%s\n' "$*") | "$program" stdlib "$file" "$library" ${most:+"$most"}
 }
 # field NAME: of each line of JSON.
 field() {
@@ -57,6 +57,64 @@ for c in map(json.loads, sys.stdin): print(c["kind"], c["where"], c["from"], c["
 }
 library_of examples/lake-retreat/retreat.plan retreats price
 library_of tests/cli/files/priced.plan barns offer
+
+# Walks: what is asked of the houses on one plan, and those of all plans that are tried.
+cat >"$scratch/walked.plan" <<'PLAN'
+schema row { width role length = 3m | 4m  zone house role band = space(4m) }
+form f of row {
+  storey ground 2.7m
+  wall 200mm
+  partition 100mm
+  deck 300mm
+  roof 200mm
+  way 800mm
+  function first at cell(3m)
+  function second at cell(any)
+  opening door wide 900mm high 2m passage sliding
+  opening hatch wide 900mm high 2m passage sliding
+  face cell(any) beside cell(any) = door | hatch | wall
+  face cell(any) outside left = door
+  face cell(any) outside = wall
+  tile tables for second { item table left 500mm..1.2m, back 500mm..1.2m }
+  tile bare for second { }
+  material pine "#c0a080" price 100 per m2 for table
+}
+library rows using row { trays 1..3 }
+library all from rows in f { }
+library near from rows in f { require walk(cell(second), to outside) <= 5.95m, exits(cell(first)) = 1 }
+measure far = walk(cell(any), to outside)
+measure shortest = least walk(cell(second), to cell(first))
+measure both = far / 1m + sum(cost) / 100 - exits(cell(any))
+PLAN
+file=$scratch/walked.plan plan='3m space:4m | 4m space:4m | 3m space:4m'
+for library in all near; do
+    in=("$file" --library "$library" --plan "$plan")
+    is "$library: on a plan" "$(asked on "$plan")" "$("$TARTAN" count "${in[@]}" --json | field houses)"
+    is "$library: drawn there" "$(asked sample 3 5 "$plan")" "$("$TARTAN" sample "${in[@]:0:1}" 5 "${in[@]:1}" --seed 3)"
+    for measure in far shortest both; do
+        for wish in least most; do
+            "$TARTAN" best "${in[@]:0:1}" 40 "${in[@]:1}" --$wish $measure --format json 2>/dev/null |
+                python3 -c 'import json, sys
+for line in sys.stdin: print(*(json.loads(line)[name] for name in ("value", "house")), sep="\t")' >"$scratch/wanted"
+            [ "$(wc -l <"$scratch/wanted")" = 40 ] || fail "$library: few of $measure: $(wc -l <"$scratch/wanted")"
+            asked $wish $measure 40 "$plan" | diff "$scratch/wanted" - || fail "$library: the $wish $measure are others"
+        done
+    done
+    most=20
+    is "$library: too many" "$(asked least far 3 "$plan")" "$(first_error "$TARTAN" best "$file" 3 "${in[@]:1}" --least far --max-houses 20)"
+    is "$library: of all plans" "$(asked least far 3)" "$(first_error "$TARTAN" best "$file" 3 --library "$library" --least far)"
+    most=
+done
+is 'near: drawn' "$(asked sample 3 9)" "$("$TARTAN" sample "$file" 9 --library near --seed 3 2>/dev/null)"
+is 'near: counted' "$(asked count)" "$(first_error "$TARTAN" count "$file" --library near)"
+line=$("$TARTAN" sample "$file" 1 --library near --plan "$plan")
+is 'near: its number' "#$(asked number "$line")" "$("$TARTAN" rank "$file" "$line" --library near)"
+is 'near: of a number' "$(asked house "$(asked number "$line")")" "$line"
+is 'near: else' "$(asked vary "$line" | wc -l)" "$("$TARTAN" vary "$file" "$line" --library near --json | wc -l)"
+most=3
+is 'near: none of so few' "$(asked sample 4 9)" "$(first_error "$TARTAN" sample "$file" 9 --library near --seed 4 --max-houses 3)"
+most=
+
 library=none
 is 'no library' "$(asked count)" 'error the module has no library of houses `none`'
 
