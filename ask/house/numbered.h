@@ -46,6 +46,7 @@ typedef struct tn_numbered {
     uint32_t plans_alone; /* that were counted by themselves */
     uint32_t max_states;
     uint64_t max_houses; /* of tn_house_settings */
+    bool by_plan;        /* if walks are asked for, and there are few plans, they are gone through */
     bool not_all;        /* houses were tried, but not all: it was said how many */
 } tn_numbered;
 
@@ -148,7 +149,7 @@ bool tn_numbered_few(const tn_numbered *n);
 /* A note where fewer houses were found than were wanted. */
 void tn_numbered_say_few(const tn_numbered *n, bool on_plan, uint64_t found, uint64_t wanted);
 
-/* Can one go through them at all (TN_HOUSE_PLANS_MAX)? Not by clauses that ask for walks. */
+/* Can one go through them at all (TN_HOUSE_PLANS_MAX)? By clauses that ask for walks only if `by_plan` says so. */
 bool tn_numbered_countable(const tn_numbered *n);
 
 /* The plan of a rank, written in so many digits; trays: room for the longest. */

@@ -127,7 +127,7 @@ bool tn_numbered_walks(const tn_numbered *n)
 
 bool tn_numbered_countable(const tn_numbered *n)
 {
-    return at_most(n, TN_HOUSE_PLANS_MAX) && !tn_numbered_walks(n);
+    return tn_numbered_walks(n) ? n->by_plan && tn_numbered_few(n) : at_most(n, TN_HOUSE_PLANS_MAX);
 }
 
 /* ---- names */

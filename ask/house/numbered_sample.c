@@ -277,7 +277,7 @@ static tn_status sample(tn_numbered *n, const tn_plan *plan, size_t wanted, uint
                         void *context, tn_error *error)
 {
     tn_houses *houses;
-    if (!plan && tn_numbered_walks(n))
+    if (!plan && tn_numbered_walks(n) && !tn_numbered_countable(n))
         return sample_tried(n, wanted, seed, use, context, error);
     tn_status status = count_together(n, plan, &houses, error);
     if (status == TN_OK && houses)

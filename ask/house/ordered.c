@@ -62,6 +62,8 @@ static tn_status find_together(tn_ordered_houses *o, tn_houses_aim aim, uint64_t
 
 tn_status tn_ordered_find(tn_ordered_houses *o, tn_houses_aim aim, uint64_t wanted, tn_error *error)
 {
+    if (aim == TN_HOUSES_COMPLETE && tn_walked_asked(o->n, &o->measures))
+        return TN_OK; /* whoever completes plans goes through them (completed.h) */
     tn_session_begins(o->n->session, "looking for the best");
     tn_status status = o->plan && tn_walked_asked(o->n, &o->measures)
                            ? tn_walked_find(o->n, o->plan, &o->measures, aim == TN_HOUSES_FRONT, &o->walked, error)

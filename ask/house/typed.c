@@ -29,6 +29,7 @@ typedef struct asking {
     const tn_house_line *line;
     tn_houses *houses;
     tn_plan_houses *on_plan;
+    tn_house_listing *listing; /* in place of both: the library asks for walks */
     uint64_t work;
 } asking;
 
@@ -36,6 +37,7 @@ static void end_asking(asking *a)
 {
     tn_plan_houses_free(a->on_plan);
     tn_houses_free(a->houses);
+    tn_house_listing_free(a->listing);
 }
 
 /* plans: NULL, of all houses of the form. */
@@ -46,15 +48,58 @@ static tn_status begin_asking(asking *a, const tn_typed_among *among, const tn_h
     const tn_tray *trays = line->plan.length > 0 ? line->plan.trays : none;
     const tn_houses_what what = {.only = trays, .length = (uint32_t)line->plan.length};
     *a = (asking){.line = line, .work = TN_TYPED_WORK};
-    tn_status status = tn_houses_of(among->form, library, plans, &what, among->options.max_states, &a->houses, error);
+    tn_status status = tn_houses_check_walks(among->form, library, NULL, error);
+    if (status == TN_LIMIT)
+        return tn_house_listing_new(among->form, library, 0, &a->listing, error);
+    if (status == TN_OK)
+        status = tn_houses_of(among->form, library, plans, &what, among->options.max_states, &a->houses, error);
     return status == TN_OK ? tn_plan_houses_new(a->houses, trays, (uint32_t)line->plan.length, &a->on_plan, error)
                            : status;
+}
+
+/* The first house of a listing that has what is typed. */
+typedef struct seeking {
+    const tn_line_asked *asked;
+    uint64_t *work;
+    tn_buffer line;
+    tn_house *house;
+    bool *found;
+} seeking;
+
+static tn_status look_at(void *context, const tn_house *house, bool *stop, tn_error *error)
+{
+    seeking *s = context;
+    s->line.size = 0;
+    tn_status status = tn_typed_try(s->work, error);
+    if (status == TN_OK)
+        status = tn_house_write(house, &s->line, error);
+    if (status == TN_OK && tn_typed_line_fits(s->asked, s->line.data)) {
+        *stop = *s->found = true;
+        status = tn_house_copy(house, s->house, error);
+    }
+    return status;
+}
+
+static tn_status seek(asking *a, const tn_line_asked *asked, tn_house *house, bool *found, tn_error *error)
+{
+    seeking s = {.asked = asked, .work = &a->work, .house = house, .found = found};
+    const tn_plan *plan = &a->line->plan;
+    mpz_t first;
+    *house = (tn_house){0};
+    *found = false;
+    mpz_init(first);
+    tn_status status = tn_house_listing_each(a->listing, plan->trays, plan->length, first, look_at, &s, error);
+    mpz_clear(first);
+    free(s.line.data);
+    return status;
 }
 
 /* The first house with the first so many typed values, `other` in place of the last (NULL: itself). */
 static tn_status ask(asking *a, size_t count, const char *other, tn_house *house, bool *found, tn_error *error)
 {
     const tn_line_asked asked = {a->line, count, other};
+    if (a->listing)
+        return seek(a, &asked, house, found, error);
     return tn_plan_houses_typed(a->on_plan, &asked, &a->work, house, found, error);
 }
 

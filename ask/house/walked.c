@@ -14,11 +14,16 @@ bool tn_walked_asked(const tn_numbered *n, const tn_house_measures *measures)
     return tn_houses_check_walks(&n->form, n->record, measures, &error) == TN_LIMIT;
 }
 
+uint64_t tn_walked_most(const tn_numbered *n)
+{
+    return n->max_houses > 0 ? n->max_houses : TN_WALKED_HOUSES_DEFAULT;
+}
+
 /* ---- found */
 
 static tn_status check_number(tn_numbered *n, const tn_plan *plan, tn_error *error)
 {
-    uint64_t most = n->max_houses > 0 ? n->max_houses : TN_WALKED_HOUSES_DEFAULT;
+    uint64_t most = tn_walked_most(n);
     mpz_t houses;
     mpz_init(houses);
     tn_status status = tn_numbered_houses_on(n, plan->trays, (uint32_t)plan->length, houses, error);

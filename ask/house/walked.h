@@ -28,12 +28,14 @@ typedef struct tn_walked_houses {
     size_t point_count;
 } tn_walked_houses;
 
+/* How many houses may be gone through. */
+uint64_t tn_walked_most(const tn_numbered *n);
+
 /* Does a measure, or a clause of the library, ask for walks? */
 bool tn_walked_asked(const tn_numbered *n, const tn_house_measures *measures);
 
 /* Goes through the houses of the plan; both are borrowed. front: only the values are points that no house betters in
- * one measure without losing in another. TN_LIMIT (E1617) where there are more than n->max_houses, or
- * TN_WALKED_HOUSES_DEFAULT. Clear it in
+ * one measure without losing in another. TN_LIMIT (E1617) where there are more than tn_walked_most. Clear it in
  * any case. */
 tn_status tn_walked_find(tn_numbered *n, const tn_plan *plan, const tn_house_measures *measures, bool front,
                          tn_walked_houses *walked, tn_error *error);

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/house/completed.h"
 #include "ask/plan/best.h"
 #include "ask/plan/searched.h"
 #include "ask/session/made.h"
@@ -651,14 +652,16 @@ static tn_status make_schema(tn_session *session, const char *library, tn_open_c
 }
 
 /* Takes over the choices in any case. */
-static tn_status give_houses(const tn_houses_search *search, tn_open_choices *c, tn_reply *answer)
+static tn_status give_houses(tn_houses_search *search, tn_open_choices *c, tn_reply *answer)
 {
     tn_error error;
     c->wishes = search->found;
     c->open.most = c->wishes.most[0];
     if (c->wishes.count)
         mpq_set(c->step, search->by.weights[0]->shown);
-    tn_status status = tn_houses_complete(search->by.houses, &c->open, &c->found, &error);
+    tn_status status =
+        search->by.houses ? tn_houses_complete(search->by.houses, &c->open, &c->found, &error)
+                          : tn_completed_walked(&search->n, &search->by.measures, &c->open, &c->found, c->step, &error);
     if (status == TN_OK)
         status = give(c, answer, &error);
     else

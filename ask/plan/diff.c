@@ -96,6 +96,7 @@ tn_status tn_diff_houses(tn_session *session, tn_session *other, const tn_diff_r
     tn_status status = tn_numbered_open(&c.sides[0].n, other, &settings);
     if (status == TN_OK)
         status = tn_numbered_open(&c.sides[1].n, session, &settings);
+    c.sides[0].n.by_plan = c.sides[1].n.by_plan = true;
     if (status == TN_OK)
         status = compare_all_houses(session, request, &c, answer);
     tn_houses_compare_clear(&c);

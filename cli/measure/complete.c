@@ -146,6 +146,7 @@ static const tn_option options[] = {
     WISH("most", wanted, "also say the most MEASURE that each value leaves"),
     FLAG("json", 0, json, "write JSON, every count as a string of digits"),
     OPTION_OUTPUT_OR_PICTURE,
+    OPTION_MAX_HOUSES("if walks are asked for: the most houses that are gone through one by one (default 100000)"),
     OPTIONS_LIBRARY_LIMITS,
     OPTIONS_SEARCH,
 };

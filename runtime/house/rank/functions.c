@@ -352,7 +352,7 @@ static tn_status choose(tn_coming *c, tn_choosing *choosing, tn_house *house, tn
         if (choosing->typed && !is_typed(c, group->functions, house, choosing->typed))
             continue;
         if (choosing->typed)
-            status = tn_path_typed_try(choosing->typed, error);
+            status = tn_typed_try(choosing->typed->work, error);
         if (status == TN_OK)
             status = find_houses(c, i, group, end - first, &houses, error);
         if (status != TN_OK || tn_choosing_passes(choosing, houses, has_functions(c, group->functions, wanted)))

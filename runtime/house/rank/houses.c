@@ -295,7 +295,7 @@ static tn_status try_all_tiles(tn_taking_typed *t, tn_house *house, tn_error *er
     tn_furnish_at(f->furnisher, first);
     mpz_clear(first);
     do {
-        status = tn_path_typed_try(t->typed, error);
+        status = tn_typed_try(t->typed->work, error);
         f->found = status == TN_OK;
         for (uint32_t i = 0; status == TN_OK && f->found && i < house->cell_count; i++)
             status = has_tile(t->typed, house, i, &f->found, error);

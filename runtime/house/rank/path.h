@@ -22,9 +22,6 @@ typedef struct tn_path_typed {
 
 void tn_path_typed_clear(tn_path_typed *typed);
 
-/* TN_LIMIT (E1617) once too many choices were tried. */
-tn_status tn_path_typed_try(tn_path_typed *typed, tn_error *error);
-
 bool tn_path_typed_section(const tn_path_typed *typed, const tn_house *section);
 
 /* May the tray have these functions? */

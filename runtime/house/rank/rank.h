@@ -51,6 +51,12 @@ tn_status tn_plan_houses_number(tn_plan_houses *plan, const tn_house *house, mpz
 tn_status tn_plan_houses_typed(tn_plan_houses *plan, const tn_line_asked *asked, uint64_t *work, tn_house *house,
                                bool *found, tn_error *error);
 
+/* Takes one of the choices that may be tried, of which `work` are left; TN_LIMIT (E1617) past the last. */
+tn_status tn_typed_try(uint64_t *work, tn_error *error);
+
+/* Has a house what is typed that has this line, as tn_house_write writes it? Its plan is not looked at. */
+bool tn_typed_line_fits(const tn_line_asked *asked, const char *line);
+
 /* Houses by rank. The plans that were asked for last are kept with their states, as long as these are not too many.
  * Borrows the houses. Free with tn_house_ranks_free, also after a failure. */
 typedef struct tn_house_ranks tn_house_ranks;

@@ -1,5 +1,6 @@
 /* Holds choices to what is typed of a house line. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "runtime/house/rank/path.h"
 
@@ -11,10 +12,10 @@ void tn_path_typed_clear(tn_path_typed *t)
     t->face_value = t->tile_value = t->known_with = NULL;
 }
 
-tn_status tn_path_typed_try(tn_path_typed *t, tn_error *error)
+tn_status tn_typed_try(uint64_t *work, tn_error *error)
 {
-    if (*t->work > 0) {
-        --*t->work;
+    if (*work > 0) {
+        --*work;
         return TN_OK;
     }
     tn_status status = tn_fail(error, TN_LIMIT, E_VARIANTS,
@@ -119,10 +120,42 @@ static tn_status stands(const tn_path_typed *t, const tn_house *house, uint32_t 
 tn_status tn_path_typed_face(tn_path_typed *t, tn_house *house, size_t face, bool *fits, tn_error *error)
 {
     const char *kind = tn_form_kind_text(house->form, house->faces[face].kind);
-    tn_status status = tn_path_typed_try(t, error);
+    tn_status status = tn_typed_try(t->work, error);
     *fits = t->face_value[face] == SIZE_MAX || tn_line_allows(t->asked, TN_LINE_FACES, t->face_value[face], kind);
     for (uint32_t c = 0; status == TN_OK && *fits && c < house->cell_count; c++)
         if (t->known_with[c] == face)
             status = stands(t, house, c, fits, error);
     return status;
+}
+
+/* ---- lines of houses */
+
+/* Are the words of a part, up to `end`, as is asked? */
+static bool fits_part(const tn_line_asked *asked, int part, const char *words, const char *end)
+{
+    char word[TN_VARIANT_TEXT];
+    size_t count = 0;
+    while ((words += strspn(words, " |")) < end) {
+        size_t size = strcspn(words, " |;");
+        if (size < sizeof word && !(size == 1 && *words == '-')) {
+            memcpy(word, words, size);
+            word[size] = '\0';
+            if (!tn_line_allows(asked, part, count++, word))
+                return false;
+        }
+        words += size;
+    }
+    return tn_line_has_count(asked, part, count);
+}
+
+bool tn_typed_line_fits(const tn_line_asked *asked, const char *line)
+{
+    const char *part = strchr(line, ';');
+    bool fits = true;
+    for (int p = TN_LINE_SECTION; fits && part && p < TN_LINE_PARTS; p++) {
+        const char *end = part + 1 + strcspn(part + 1, ";");
+        fits = fits_part(asked, p, part + 1, end);
+        part = *end ? end : NULL;
+    }
+    return fits;
 }
