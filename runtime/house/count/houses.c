@@ -153,13 +153,28 @@ static tn_status count_kind(tn_houses *h, tn_houses_kind *kind, tn_error *error)
  * are a count past the limit, which is said before it begins. */
 enum { SCOUTED_A_STATE = 2, OTHERS_A_SCOUTED = 3 };
 
+/* If most steps lead to nodes that are there already, these limits are far away, and so is the end: with more steps than
+ * so many for each state that is allowed, it takes too long until it is known whether there are too many. */
+enum { STEPS_A_STATE = 12 };
+
 typedef struct tn_scout {
     const tn_houses *houses;
     tn_houses_kind *kind;
     uint32_t layer; /* 1 and the one that is gone on from; 0: none yet */
     uint64_t nodes; /* of all layers of states so far */
+    uint64_t steps; /* from node to node */
     bool any;       /* does a house come to its end? */
 } tn_scout;
+
+static tn_status check_steps(const tn_scout *s, tn_error *error)
+{
+    uint64_t most = (uint64_t)STEPS_A_STATE * s->houses->max_states;
+    if (s->steps <= most)
+        return TN_OK;
+    tn_fail(error, TN_LIMIT, E_FRONTIER, "counting these houses takes more than %" PRIu64 " steps from tray to tray",
+            most);
+    return too_many(s->kind, error);
+}
 
 static tn_status come_by(void *context, void *sum, const void *element, const tn_walk_edge *at, tn_error *error)
 {
@@ -169,6 +184,10 @@ static tn_status come_by(void *context, void *sum, const void *element, const tn
     if (s->layer != at->layer + 1 && at->layer % tn_houses_stages(s->houses, s->kind) == 0)
         s->nodes += s->kind->layers[at->layer].nodes.count;
     s->layer = at->layer + 1;
+    s->steps++;
+    tn_status status = check_steps(s, error);
+    if (status != TN_OK)
+        return status;
     uint64_t more = (at->layer + 1) % tn_houses_stages(s->houses, s->kind) == 0 ? s->nodes / SCOUTED_A_STATE : 0;
     return check_nodes(s->houses, s->kind, at->layer + 1, more + at->to, OTHERS_A_SCOUTED, error);
 }
