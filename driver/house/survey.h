@@ -53,8 +53,16 @@ typedef struct tn_kind_use {
     tn_survey_meeting nearest;                    /* a face where it does not fit (a: NULL, none), nearest to it */
 } tn_kind_use;
 
-/* The cells at an end of a walk that the file asks for. met: some cell is so. */
-typedef enum tn_walk_part { TN_WALK_BEGINS, TN_WALK_ENDS, TN_WAYS_BEGIN } tn_walk_part;
+/* The cells at an end of a walk that the file asks for, or by way of which it leads. met: some cell is so. */
+typedef enum tn_walk_part {
+    TN_WALK_BEGINS,
+    TN_WALK_ENDS,
+    TN_WALK_THROUGH,
+    TN_WAYS_BEGIN,
+    TN_APART_CELLS,
+    TN_APART_FROM,
+    TN_APART_THROUGH
+} tn_walk_part;
 typedef struct tn_walk_end {
     uint32_t function;
     tn_walk_part part;

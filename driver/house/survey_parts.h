@@ -79,8 +79,9 @@ tn_status tn_survey_reach(const tn_survey *survey, tn_error *error);
 
 /* ---- survey_walks.c */
 
-/* Does a measure or a comparison ask for walks or ways out in houses of the form (a FORM record)? */
-bool tn_survey_asks_walks(const tn_module *module, uint32_t form);
+/* Does a measure or a comparison ask for walks or ways out in houses of the form (a FORM record), or the opened file
+ * itself for what is `apart`? TN_MEMORY. */
+tn_status tn_survey_asks_walks(const tn_opened *opened, uint32_t form, bool *asked, tn_error *error);
 
 /* Finds the ends of those that the opened file itself asks for; before its trays. TN_MEMORY. */
 tn_status tn_survey_ends(tn_survey *survey, const tn_opened *opened, tn_error *error);

@@ -1,8 +1,9 @@
-/* Finds walks and ways out that the file asks for between cells that no house of the form has. */
+/* Finds walks, ways out and `apart` that the file asks for of cells that no house of the form has. */
 #include <stdlib.h>
 
 #include "driver/house/survey_parts.h"
 #include "runtime/base/array.h"
+#include "runtime/house/rule/stages.h"
 
 /* ---- which are asked for */
 
@@ -14,7 +15,7 @@ static bool asks(const tn_module *module, uint32_t first, uint32_t count)
     return floors;
 }
 
-bool tn_survey_asks_walks(const tn_module *module, uint32_t form)
+static bool asks_walks(const tn_module *module, uint32_t form)
 {
     bool walks = false;
     for (uint32_t i = 0; i < module->HOUSE_MEASURE_count; i++) {
@@ -26,6 +27,66 @@ bool tn_survey_asks_walks(const tn_module *module, uint32_t form)
         walks |= sum->form == form && asks(module, sum->term_first, sum->term_count);
     }
     return walks;
+}
+
+/* Marks the functions of rules and clauses about houses of the form, and those that they call, which are lower. */
+static void mark_asked(const tn_module *module, uint32_t form, bool *reached)
+{
+    for (uint32_t i = 0; i < module->HOUSE_RULE_count; i++)
+        if (module->HOUSE_RULE_records[i].form == form)
+            reached[module->HOUSE_RULE_records[i].holds] = reached[module->HOUSE_RULE_records[i].whole] = true;
+    for (uint32_t i = 0; i < module->HOUSE_LIBRARY_count; i++) {
+        const tn_house_library_record *library = &module->HOUSE_LIBRARY_records[i];
+        for (uint32_t k = 0; library->form == form && k < library->clause_count; k++)
+            reached[module->HOUSE_CLAUSE_records[library->clause_first + k].holds] = true;
+    }
+    for (size_t f = module->FUNCTION_count; f-- > 0;) {
+        const tn_function_record *function = &module->FUNCTION_records[f];
+        bool asked = reached[f] && tn_function_kinds[function->kind].code == TN_CODE_RULE;
+        for (uint32_t at = function->code_begin; asked && at < function->code_end;) {
+            tn_instruction op = tn_code_read(module->code, at);
+            tn_mark_operands(module, &op, reached);
+            at += op.length;
+        }
+    }
+}
+
+/* Calls back with each `apart` that the file itself asks of houses of the form. */
+typedef tn_status apart_each(void *context, const tn_meeting_record *walk, tn_error *error);
+static tn_status each_apart(const tn_opened *opened, uint32_t form, apart_each *each, void *context, tn_error *error)
+{
+    const tn_module *module = opened->module;
+    bool *reached = calloc(module->FUNCTION_count + 1, sizeof *reached);
+    tn_status status = reached ? TN_OK : tn_fail_memory(error);
+    if (reached)
+        mark_asked(module, form, reached);
+    for (size_t f = 0; status == TN_OK && f < module->FUNCTION_count; f++) {
+        const tn_function_record *function = &module->FUNCTION_records[f];
+        bool asked = reached[f] && tn_function_kinds[function->kind].code == TN_CODE_RULE;
+        for (uint32_t at = function->code_begin; status == TN_OK && asked && at < function->code_end;) {
+            tn_instruction op = tn_code_read(module->code, at);
+            tn_span span;
+            if (op.opcode == TN_OP_APART && tn_code_span(opened, at, &span) && span.file == 0)
+                status = each(context, &module->MEETING_records[op.first], error);
+            at += op.length;
+        }
+    }
+    free(reached);
+    return status;
+}
+
+static tn_status note_any(void *context, const tn_meeting_record *walk, tn_error *error)
+{
+    bool *any = context;
+    (void)walk, (void)error;
+    *any = true;
+    return TN_OK;
+}
+
+tn_status tn_survey_asks_walks(const tn_opened *opened, uint32_t form, bool *asked, tn_error *error)
+{
+    *asked = asks_walks(opened->module, form);
+    return *asked ? TN_OK : each_apart(opened, form, note_any, asked, error);
 }
 
 /* Where the question about the cell stands: the last instruction has the whole of it. False where nobody knows. */
@@ -44,6 +105,9 @@ static tn_status add_end(tn_survey *s, const tn_opened *opened, uint32_t functio
     tn_span span;
     if (function == TN_NO_RECORD || !find_place(opened, function, &span) || span.file != 0)
         return TN_OK;
+    for (size_t i = 0; i < s->end_count; i++)
+        if (s->ends[i].function == function && s->ends[i].part == part)
+            return TN_OK; /* several rules call one that asks for it */
     if (!tn_array_reserve(&s->ends, &s->end_room, s->end_count, 1, sizeof *s->ends))
         return tn_fail_memory(error);
     s->ends[s->end_count++] = (tn_walk_end){.function = function, .part = part, .span = span};
@@ -58,7 +122,24 @@ static tn_status add_term(tn_survey *s, const tn_opened *opened, const tn_house_
         return add_end(s, opened, term->part, TN_WAYS_BEGIN, error);
     const tn_meeting_record *walk = &s->form.module->MEETING_records[term->walk];
     tn_status status = add_end(s, opened, walk->first, TN_WALK_BEGINS, error);
-    return status == TN_OK ? add_end(s, opened, walk->second, TN_WALK_ENDS, error) : status;
+    if (status == TN_OK)
+        status = add_end(s, opened, walk->second, TN_WALK_ENDS, error);
+    return status == TN_OK ? add_end(s, opened, walk->through, TN_WALK_THROUGH, error) : status;
+}
+
+/* Whose ends are found. */
+typedef struct finding {
+    tn_survey *survey;
+    const tn_opened *opened;
+} finding;
+
+static tn_status add_apart(void *context, const tn_meeting_record *walk, tn_error *error)
+{
+    const finding *f = context;
+    tn_status status = add_end(f->survey, f->opened, walk->first, TN_APART_CELLS, error);
+    if (status == TN_OK)
+        status = add_end(f->survey, f->opened, walk->second, TN_APART_FROM, error);
+    return status == TN_OK ? add_end(f->survey, f->opened, walk->through, TN_APART_THROUGH, error) : status;
 }
 
 static tn_status add_terms(tn_survey *s, const tn_opened *opened, uint32_t first, uint32_t count, tn_error *error)
@@ -83,7 +164,9 @@ tn_status tn_survey_ends(tn_survey *s, const tn_opened *opened, tn_error *error)
         if (&module->FORM_records[sum->form] == s->form.record)
             status = add_terms(s, opened, sum->term_first, sum->term_count, error);
     }
-    return status;
+    finding f = {s, opened};
+    uint32_t form = (uint32_t)(s->form.record - module->FORM_records);
+    return status == TN_OK ? each_apart(opened, form, add_apart, &f, error) : status;
 }
 
 void tn_survey_see_ends(tn_survey *s, const tn_cell *cell)
@@ -150,9 +233,11 @@ static tn_status help_functions(const tn_survey *s, tn_diagnostics *list, const 
 
 tn_status tn_survey_warn_walks(const tn_survey *s, tn_opened *opened, tn_error *error)
 {
-    static const char *const texts[] = {[TN_WALK_BEGINS] = "this walk begins at",
-                                        [TN_WALK_ENDS] = "this walk leads to",
-                                        [TN_WAYS_BEGIN] = "these ways out begin at"};
+    static const char *const texts[] = {
+        [TN_WALK_BEGINS] = "this walk begins at",      [TN_WALK_ENDS] = "this walk leads to",
+        [TN_WALK_THROUGH] = "this walk leads through", [TN_WAYS_BEGIN] = "these ways out begin at",
+        [TN_APART_CELLS] = "this `apart` is about",       [TN_APART_FROM] = "this `apart` asks for walks to",
+        [TN_APART_THROUGH] = "this `apart` asks for walks through"};
     tn_diagnostics *list = &opened->compilation.diagnostics;
     tn_status status = TN_OK;
     for (size_t i = 0; status == TN_OK && i < s->end_count; i++) {

@@ -212,10 +212,12 @@ static tn_status warn(const tn_survey *s, tn_error *error)
 static tn_status survey(tn_opened *opened, uint32_t form, tn_error *error)
 {
     bool own = !(opened->module->FORM_records[form].flags & TN_IMPORTED);
+    bool asked = true;
     tn_survey *s;
-    if (!own && !tn_survey_asks_walks(opened->module, form))
-        return TN_OK;
-    tn_status status = tn_survey_begin(opened->module, form, own ? opened : NULL, &s, error);
+    tn_status status = own ? TN_OK : tn_survey_asks_walks(opened, form, &asked, error);
+    if (status != TN_OK || !asked)
+        return status;
+    status = tn_survey_begin(opened->module, form, own ? opened : NULL, &s, error);
     if (status == TN_LIMIT)
         return TN_OK; /* said of the schema */
     if (status == TN_OK)
