@@ -215,6 +215,8 @@ def ask_lists(l):
         same(f"{l.name}: listed from {k}", p.lines("enumerate", *l.said, "--from", k, "--limit", 3), l.kept[k:k + 3])
     drawn = p.lines("sample", 5, *l.said, "--seed", 3)
     same(f"{l.name}: drawn", (len(drawn), len(set(drawn) - set(l.kept)), drawn), (min(5, len(l.kept)), 0, sorted(set(drawn), key=drawn.index)))
+    for threads in 1, 4:
+        same(f"{l.name}: drawn, threads", p.lines("sample", 5, *l.said, "--seed", 3, "--threads", threads), drawn)
     same(f"{l.name}: drawn, all", p.lines("sample", len(l.kept) + 1, *l.said), l.kept)
     counted = p.run("count", *l.said, "--json")
     same(f"{l.name}: counted", "E1687" in counted.stderr if l.walks else json.loads(counted.stdout)["houses"], True if l.walks else str(len(l.kept)))
@@ -235,7 +237,8 @@ def ask_plan(l, plan, values, r):
     on = (*l.said, "--plan", plan)
     same(f"{l.name} on {plan}: counted", p.document("count", *on)["houses"], str(len(kept)))
     same(f"{l.name} on {plan}: listed", p.lines("enumerate", *on), kept)
-    same(f"{l.name} on {plan}: threads", p.lines("enumerate", *on, "--threads", 1), kept)
+    for threads in 1, 4:
+        same(f"{l.name} on {plan}: threads", p.lines("enumerate", *on, "--threads", threads), kept)
     if not kept:
         return
     for measure in r.sample(["m0", "m1", "m2", "m3", "m4"], 2):

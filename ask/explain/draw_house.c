@@ -223,6 +223,22 @@ static tn_status find_stop(const drawing *d, uint32_t cell, bool *found, tn_way_
     return *found ? tn_cell_stop(d->house, cell, stop, error) : status;
 }
 
+/* Where a flight comes nearest to a place. *found: the cell begins a stack in which one stands nowhere. */
+static tn_status light_flight(drawing *d, uint32_t cell, bool *found, tn_error *error)
+{
+    tn_way_fault fault;
+    tn_flight_stop stop = {0};
+    tn_status status = tn_cell_ways(d->house, cell, &fault, error);
+    *found = status == TN_OK && fault.flight;
+    if (!*found)
+        return status;
+    status = tn_stack_stop(d->house, cell, &stop, error);
+    if (status == TN_OK)
+        status = light_stop(d, stop.cell, &stop.way, error);
+    tn_way_stop_clear(&stop.way);
+    return status;
+}
+
 static tn_status light_bare(drawing *d, const char *name, bool of_house, tn_error *error)
 {
     uint32_t cell = named_cell(d, name);
@@ -230,7 +246,11 @@ static tn_status light_bare(drawing *d, const char *name, bool of_house, tn_erro
     tn_way_stop stop = {0};
     if (cell == TN_NO_CELL)
         return TN_OK;
-    tn_status status = of_house ? find_stop(d, cell, &found, &stop, error) : TN_OK;
+    tn_status status = of_house ? light_flight(d, cell, &found, error) : TN_OK;
+    if (status != TN_OK || found)
+        return status;
+    if (of_house)
+        status = find_stop(d, cell, &found, &stop, error);
     if (status == TN_OK)
         status = found ? light_stop(d, cell, &stop, error) : light_cell(d, cell, TN_LIT_FAULT, error);
     tn_way_stop_clear(&stop);

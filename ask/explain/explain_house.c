@@ -409,6 +409,31 @@ static tn_status add_tile(tn_house_explaining *e, uint32_t cell, uint32_t tile, 
     return to->why ? TN_OK : tn_fail_memory(error);
 }
 
+static tn_status append_cell_stop(tn_house_explaining *e, uint32_t cell, char *text, size_t size, tn_error *error)
+{
+    tn_way_stop stop = {0};
+    tn_status status = tn_cell_stop(&e->house, cell, &stop, error);
+    if (status == TN_OK)
+        append_stop(&e->house, &stop, text, size);
+    tn_way_stop_clear(&stop);
+    return status;
+}
+
+static tn_status append_flight_stop(tn_house_explaining *e, uint32_t cell, char *text, size_t size, tn_error *error)
+{
+    tn_flight_stop stop = {0};
+    char said[400], name[96];
+    size_t used = strlen(text);
+    tn_status status = tn_stack_stop(&e->house, cell, &stop, error);
+    if (status == TN_OK) {
+        tn_cell_text(&e->house, stop.cell, name, sizeof name);
+        tn_flight_stop_text(&e->house, &stop, name, said, sizeof said);
+        snprintf(text + used, size - used, "%s%s", *said ? "; " : "", said);
+    }
+    tn_way_stop_clear(&stop.way);
+    return status;
+}
+
 /* Why a cell without tiles does not fit. */
 static tn_status add_fault(tn_house_explaining *e, uint32_t cell, tn_bare_cell *bare, tn_error *error)
 {
@@ -418,15 +443,9 @@ static tn_status add_fault(tn_house_explaining *e, uint32_t cell, tn_bare_cell *
     if (status != TN_OK)
         return status;
     tn_way_fault_text(&e->judge.form, &fault, text, sizeof text);
-    if (!fault.flight) {
-        tn_way_stop stop = {0};
-        status = tn_cell_stop(&e->house, cell, &stop, error);
-        if (status == TN_OK)
-            append_stop(&e->house, &stop, text, sizeof text);
-        tn_way_stop_clear(&stop);
-        if (status != TN_OK)
-            return status;
-    }
+    status = (fault.flight ? append_flight_stop : append_cell_stop)(e, cell, text, sizeof text, error);
+    if (status != TN_OK)
+        return status;
     bare->has_why = true;
     bare->why = strdup(text);
     return bare->why ? TN_OK : tn_fail_memory(error);

@@ -8,6 +8,7 @@
 #include "ask/session/spelled.h"
 #include "runtime/base/nearest.h"
 #include "runtime/house/house.h"
+#include "runtime/house/rule/stages.h"
 
 tn_house_settings tn_asked_houses(const tn_library_asked *asked)
 {
@@ -109,6 +110,8 @@ tn_status tn_numbered_open(tn_numbered *n, tn_session *session, const tn_house_s
     }
     n->plans = n->opened;
     if (status == TN_OK)
+        status = tn_functions_walking(module, &n->walking, &error);
+    if (status == TN_OK)
         status = tn_houses_check_walls(&n->form, n->record, n->plans, &error);
     return status == TN_OK ? TN_OK : tn_session_fail(session, &error);
 }
@@ -121,6 +124,7 @@ void tn_numbered_close(tn_numbered *n)
     tn_house_listing_free(n->listing);
     tn_library_free(n->opened);
     tn_schema_free(n->schema);
+    free(n->walking);
 }
 
 void tn_numbered_other(const tn_numbered *n, const tn_module *module, const tn_house_library_record *record,

@@ -43,6 +43,7 @@ typedef struct tn_numbered {
     tn_house_rules *rules;     /* or NULL: no house was judged yet */
     tn_houses *all;            /* or NULL: not asked for */
     tn_numbered_ranked ranked;
+    bool *walking;        /* [functions of the module] they ask for walks; of the one that was opened */
     uint32_t plans_alone; /* that were counted by themselves */
     uint32_t max_states;
     uint64_t max_houses; /* of tn_house_settings */

@@ -121,8 +121,11 @@ bool tn_numbered_few(const tn_numbered *n)
 
 bool tn_numbered_walks(const tn_numbered *n)
 {
-    tn_error error;
-    return tn_houses_check_walks(&n->form, n->record, NULL, &error) != TN_OK;
+    const tn_house_clause_record *clauses = n->form.module->HOUSE_CLAUSE_records + n->record->clause_first;
+    bool walks = false;
+    for (uint32_t i = 0; i < n->record->clause_count; i++)
+        walks = walks || n->walking[clauses[i].holds];
+    return walks;
 }
 
 bool tn_numbered_countable(const tn_numbered *n)

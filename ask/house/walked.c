@@ -7,11 +7,14 @@
 #include "driver/house/values.h"
 #include "runtime/base/array.h"
 #include "runtime/base/integers.h"
+#include "runtime/house/rule/stages.h"
 
 bool tn_walked_asked(const tn_numbered *n, const tn_house_measures *measures)
 {
-    tn_error error;
-    return tn_houses_check_walks(&n->form, n->record, measures, &error) == TN_LIMIT;
+    bool walks = tn_numbered_walks(n);
+    for (uint32_t k = 0; k < measures->count; k++)
+        walks = walks || tn_measure_walks(n->form.module, &measures->of[k]->of);
+    return walks;
 }
 
 uint64_t tn_walked_most(const tn_numbered *n)

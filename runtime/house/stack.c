@@ -168,6 +168,7 @@ typedef struct tn_stack {
     const tn_face **faces;       /* [flights] */
     tn_cell_floor *floors;       /* [flights + 1] of its cells */
     tn_flight_place *places;     /* [flights] */
+    tn_flight_place *reached;    /* [flights] those below the furthest flight, when that was first tried */
     bool *dead;                  /* [flights][PLACES] from there the flights above cannot go on */
     tn_step_box *boxes;          /* [TN_FLIGHT_STEPS_MAX] scratch */
     tn_stair_floor lower, upper; /* scratch */
@@ -209,6 +210,7 @@ static void clear_stack(tn_stack *k)
     free(k->faces);
     free(k->floors);
     free(k->places);
+    free(k->reached);
     free(k->dead);
     free(k->boxes);
 }
@@ -223,9 +225,10 @@ static tn_status begin_stack(const tn_house *house, uint32_t lowest, tn_stack *k
     k->faces = calloc(k->flights + 1, sizeof *k->faces);
     k->floors = calloc(k->flights + 1, sizeof *k->floors);
     k->places = calloc(k->flights + 1, sizeof *k->places);
+    k->reached = calloc(k->flights + 1, sizeof *k->reached);
     k->dead = calloc((k->flights + 1) * PLACES, sizeof *k->dead);
     k->boxes = malloc(TN_FLIGHT_STEPS_MAX * sizeof *k->boxes);
-    if (!k->faces || !k->floors || !k->places || !k->dead || !k->boxes)
+    if (!k->faces || !k->floors || !k->places || !k->reached || !k->dead || !k->boxes)
         return tn_fail_memory(error);
     for (size_t i = 0; status == TN_OK && i <= k->flights; i++) {
         k->faces[i] = tn_flight_above(house, lowest + (uint32_t)i);
@@ -323,8 +326,8 @@ static bool has_part(const tn_stack *k, size_t flight, const tn_flight_shape *s,
             headroom = k->house->form->record->headroom;
     if (part == STEPS_IN_WAY)
         return box->first <= 2 || (box->first - 2) * height < headroom * s->risers;
-    bool hole = (height - deck - headroom) * s->risers < box->last * height,
-         drop = (s->risers - box->first) * height > DROP_NM * s->risers;
+    bool hole = (height - deck - headroom) *
+                s->risers<box->last * height, drop = (s->risers - box->first) * height> DROP_NM * s->risers;
     return part == ALL_STEPS || (hole && (part == STEPS_IN_HOLE || drop));
 }
 
@@ -424,7 +427,7 @@ static tn_status add_below(tn_stack *k, size_t flight, tn_stair_floor *to, bool 
     return add_hole(k, flight, &s, p, to, stands, error);
 }
 
-static tn_status judge(const tn_cell_floor *floor, const tn_stair_floor *with, bool *fits, tn_error *error)
+static tn_floor floor_with(const tn_cell_floor *floor, const tn_stair_floor *with)
 {
     tn_floor asked = tn_cell_floor_of(floor);
     asked.obstacles = with->obstacles.items;
@@ -434,21 +437,32 @@ static tn_status judge(const tn_cell_floor *floor, const tn_stair_floor *with, b
     asked.landings = with->landings.items;
     asked.landing_count = with->landings.count;
     asked.passages = with->passages;
+    return asked;
+}
+
+static tn_status judge(const tn_cell_floor *floor, const tn_stair_floor *with, bool *fits, tn_error *error)
+{
+    tn_floor asked = floor_with(floor, with);
     return tn_floor_fits(&asked, fits, error);
 }
 
+/* What of a place does not do: the first of these. */
+typedef enum tn_stand_fault { NO_PLACE, NO_FOOT, NO_HEAD, LOWER_FLOOR, UPPER_FLOOR, PLACE_FITS } tn_stand_fault;
+
 /* Do both cells of a flight fit with it at that place, and with the flight below them, which is placed? */
-static tn_status try_place(tn_stack *k, size_t flight, size_t number, bool *fits, tn_error *error)
+static tn_status try_place(tn_stack *k, size_t flight, size_t number, tn_stand_fault *fault, tn_error *error)
 {
     tn_flight_shape s;
     tn_flight_place p;
     tn_stair_floor *lower = &k->lower, *upper = &k->upper;
-    *fits = place_at(k, flight, number, &p, &s);
-    if (!*fits)
+    bool fits = place_at(k, flight, number, &p, &s);
+    *fault = NO_PLACE;
+    if (!fits)
         return TN_OK;
+    *fault = NO_FOOT;
     tn_status status = begin_floor(&k->floors[flight], lower, error);
     if (status == TN_OK && flight > 0)
-        status = add_below(k, flight - 1, lower, fits, error);
+        status = add_below(k, flight - 1, lower, &fits, error);
     place_at(k, flight, number, &p, &s); /* the boxes are this flight's again */
     lower->in_air.count = 0;             /* leaves meet a hole as an obstacle, too */
     if (status == TN_OK)
@@ -456,16 +470,24 @@ static tn_status try_place(tn_stack *k, size_t flight, size_t number, bool *fits
     if (status == TN_OK)
         status = add_steps(k, flight, &s, &p, ALL_STEPS, &lower->in_air, error);
     tn_rectangle in = common_of(k, flight);
-    if (status == TN_OK && *fits)
-        status = add_landing(&k->floors[flight], put(&s, &p, &in, s.foot), lower, fits, error);
-    if (status == TN_OK && *fits)
+    if (status == TN_OK && fits)
+        status = add_landing(&k->floors[flight], put(&s, &p, &in, s.foot), lower, &fits, error);
+    if (status == TN_OK && fits) {
+        *fault = NO_HEAD;
         status = begin_floor(&k->floors[flight + 1], upper, error);
-    if (status == TN_OK && *fits)
-        status = add_hole(k, flight, &s, &p, upper, fits, error);
-    if (status == TN_OK && *fits)
-        status = judge(&k->floors[flight], lower, fits, error);
-    if (status == TN_OK && *fits)
-        status = judge(&k->floors[flight + 1], upper, fits, error);
+    }
+    if (status == TN_OK && fits)
+        status = add_hole(k, flight, &s, &p, upper, &fits, error);
+    if (status == TN_OK && fits) {
+        *fault = LOWER_FLOOR;
+        status = judge(&k->floors[flight], lower, &fits, error);
+    }
+    if (status == TN_OK && fits) {
+        *fault = UPPER_FLOOR;
+        status = judge(&k->floors[flight + 1], upper, &fits, error);
+    }
+    if (status == TN_OK && fits)
+        *fault = PLACE_FITS;
     k->places[flight] = p;
     return status;
 }
@@ -474,16 +496,18 @@ static tn_status try_place(tn_stack *k, size_t flight, size_t number, bool *fits
 static tn_status place_from(tn_stack *k, size_t flight, bool *placed, tn_error *error)
 {
     tn_status status = TN_OK;
+    if (flight > k->furthest)
+        memcpy(k->reached, k->places, flight * sizeof *k->reached);
     k->furthest = flight > k->furthest ? flight : k->furthest;
     *placed = flight == k->flights;
     for (size_t number = 0; status == TN_OK && !*placed && number < PLACES; number++) {
         bool *dead = &k->dead[flight * PLACES + number];
-        bool fits = false;
+        tn_stand_fault fault = NO_PLACE;
         if (!*dead)
-            status = try_place(k, flight, number, &fits, error);
-        if (status == TN_OK && fits)
+            status = try_place(k, flight, number, &fault, error);
+        if (status == TN_OK && fault == PLACE_FITS)
             status = place_from(k, flight + 1, placed, error);
-        *dead |= status == TN_OK && fits && !*placed;
+        *dead |= status == TN_OK && fault == PLACE_FITS && !*placed;
     }
     return status;
 }
@@ -516,6 +540,111 @@ tn_status tn_stack_fits(const tn_house *house, uint32_t lowest, bool *fits, cons
     tn_stack k;
     tn_status status = place_all(house, lowest, &k, fits, error);
     *flight = status == TN_OK && !*fits ? k.faces[k.furthest] : NULL;
+    clear_stack(&k);
+    return status;
+}
+
+/* ---- a flight that stands nowhere */
+
+/* How far a person comes with the flight in that place, at which one of its cells does not fit. */
+static tn_status stop_on_floor(const tn_stack *k, size_t cell, const tn_stair_floor *with, tn_way_stop *stop,
+                               tn_error *error)
+{
+    tn_floor asked = floor_with(&k->floors[cell], with);
+    tn_floor_answer answer = {0};
+    tn_status status = tn_floor_ask(&asked, &answer, error);
+    if (status == TN_OK && !answer.fits)
+        status = tn_floor_stop_find(&asked, &answer, &stop->at, error);
+    tn_floor_answer_clear(&answer);
+    return status;
+}
+
+static tn_status stop_at_place(tn_stack *k, size_t flight, size_t number, tn_stand_fault fault, tn_flight_stop *stop,
+                               tn_error *error)
+{
+    bool above = fault == NO_HEAD || fault == UPPER_FLOOR;
+    size_t cell = flight + above;
+    tn_flight_place p;
+    tn_flight_shape s;
+    tn_rectangle in = common_of(k, flight);
+    *stop = (tn_flight_stop){.kind = k->faces[flight]->kind,
+                             .cell = k->lowest + (uint32_t)cell,
+                             .head = above,
+                             .landing = fault == NO_FOOT || fault == NO_HEAD,
+                             .way = {.way = k->floors[cell].way}};
+    tn_status status = TN_OK;
+    if (!stop->landing)
+        status = stop_on_floor(k, cell, above ? &k->upper : &k->lower, &stop->way, error);
+    place_at(k, flight, number, &p, &s);
+    if (stop->landing)
+        stop->way.at.missed = put(&s, &p, &in, above ? s.head : s.foot);
+    if (status == TN_OK)
+        status = add_steps(k, flight, &s, &p, above ? STEPS_IN_HOLE : ALL_STEPS, &stop->way.items, error);
+    return status;
+}
+
+/* No place has room for its steps: from the back, or from the left if less is missing there. */
+static tn_status stop_of_size(tn_stack *k, size_t flight, tn_flight_stop *stop, tn_error *error)
+{
+    static const tn_house_side sides[] = {TN_HOUSE_BACK, TN_HOUSE_LEFT};
+    tn_rectangle in = common_of(k, flight);
+    *stop = (tn_flight_stop){.kind = k->faces[flight]->kind, .cell = k->lowest + (uint32_t)flight, .size = true};
+    stop->way.way = k->floors[flight].way;
+    for (size_t i = 0; i < 2; i++) {
+        tn_flight_shape s;
+        tn_flight_place p = {.side = sides[i]};
+        int64_t deep = runs_in_x(p.side) ? in.y1 - in.y0 : in.x1 - in.x0;
+        int64_t wide = runs_in_x(p.side) ? in.x1 - in.x0 : in.y1 - in.y0;
+        if (!find_shape(record_of(k, flight), height_of(k, flight), deep, k->boxes, &s))
+            return TN_OK; /* the storey is no whole number of steps */
+        int64_t longer = s.deep - deep, wider = s.wide - wide, most = longer > wider ? longer : wider;
+        if (i > 0 && most >= stop->way.at.short_by)
+            continue;
+        stop->way.at.short_by = most;
+        stop->way.at.missed = put(&s, &p, &in, (tn_rectangle){0, s.deep, 0, s.wide});
+        stop->way.items.count = 0;
+        tn_status status =
+            add_steps(k, flight, &s, &(tn_flight_place){.side = sides[i]}, ALL_STEPS, &stop->way.items, error);
+        if (status != TN_OK)
+            return status;
+    }
+    return TN_OK;
+}
+
+/* Of places that get equally far, the one in which a person comes nearest; then the first. */
+static bool is_nearer(const tn_flight_stop *stop, const tn_flight_stop *than)
+{
+    return stop->way.at.stands != than->way.at.stands ? stop->way.at.stands
+                                                      : stop->way.at.short_by < than->way.at.short_by;
+}
+
+tn_status tn_stack_stop(const tn_house *house, uint32_t lowest, tn_flight_stop *stop, tn_error *error)
+{
+    tn_stack k;
+    bool placed = false;
+    tn_stand_fault best = NO_PLACE;
+    *stop = (tn_flight_stop){0};
+    tn_status status = place_all(house, lowest, &k, &placed, error);
+    size_t flight = k.furthest;
+    if (status == TN_OK && flight > 0)
+        memcpy(k.places, k.reached, flight * sizeof *k.places);
+    for (size_t number = 0; status == TN_OK && number < PLACES; number++) {
+        tn_stand_fault fault;
+        tn_flight_stop here = {0};
+        status = try_place(&k, flight, number, &fault, error);
+        if (status != TN_OK || fault == NO_PLACE || fault < best)
+            continue;
+        status = stop_at_place(&k, flight, number, fault, &here, error);
+        if (status == TN_OK && (fault > best || is_nearer(&here, stop))) {
+            tn_flight_stop worse = *stop;
+            *stop = here;
+            here = worse;
+        }
+        best = fault;
+        tn_way_stop_clear(&here.way);
+    }
+    if (status == TN_OK && best == NO_PLACE)
+        status = stop_of_size(&k, flight, stop, error);
     clear_stack(&k);
     return status;
 }

@@ -384,6 +384,24 @@ void tn_way_stop_text(const tn_house *house, const tn_way_stop *stop, char *text
         snprintf(text, size, "a person is %s wide there", wide);
 }
 
+void tn_flight_stop_text(const tn_house *house, const tn_flight_stop *stop, const char *cell, char *text, size_t size)
+{
+    char far[64], person[200];
+    tn_way_length_text(house, stop->way.at.short_by, far);
+    tn_way_stop_text(house, &stop->way, person, sizeof person);
+    if (stop->size && stop->way.items.count > 0)
+        snprintf(text, size, "its steps are %s longer or wider than the room for them", far);
+    else if (stop->size)
+        text[0] = '\0';
+    else if (stop->landing)
+        snprintf(text, size, "in the nearest one, the landing at its %s has no room in %s",
+                 stop->head ? "head" : "foot", cell);
+    else if (*person)
+        snprintf(text, size, "in the nearest one, something in %s is not reached: %s", cell, person);
+    else
+        snprintf(text, size, "in the nearest one, a leaf in %s has no room", cell);
+}
+
 static const char *const side_texts[] = {"", "at the back", "at the front", "at the left", "at the right"};
 
 void tn_way_fault_text(const tn_house_form *form, const tn_way_fault *fault, char *text, size_t size)

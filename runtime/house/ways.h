@@ -97,6 +97,24 @@ void tn_way_stop_clear(tn_way_stop *stop);
 /* Of a cell without tiles and flights that tn_cell_ways finds a fault of. */
 tn_status tn_cell_stop(const tn_house *house, uint32_t cell, tn_way_stop *stop, tn_error *error);
 
+/* How near a flight that stands nowhere comes to a place: in the one that gets furthest, of those that get equally far
+ * the one in which a person comes nearest to what is missed. kind: of the flight. cell: the one of its two that does
+ * not fit then; head: that is the upper one. landing: its landing there has no room, which is what is missed. size: no
+ * place has room for its steps, of which all are missed; short_by is how much longer or wider they are. items: its
+ * steps, or the hole above them. */
+typedef struct tn_flight_stop {
+    uint32_t kind, cell;
+    bool head, landing, size;
+    tn_way_stop way;
+} tn_flight_stop;
+
+/* Of a stack that tn_cell_ways finds a fault of, from its lowest cell on. Clear stop->way in any case. */
+tn_status tn_stack_stop(const tn_house *house, uint32_t lowest, tn_flight_stop *stop, tn_error *error);
+
+/* "in the nearest one, the landing at its head has no room in 1.body.upper", in words; cell: the name of that. Empty if
+ * the storey is no whole number of steps. */
+void tn_flight_stop_text(const tn_house *house, const tn_flight_stop *stop, const char *cell, char *text, size_t size);
+
 /* Of a tile that fails so that it shuts or cuts a way, closes a keep or meets a leaf; tiles.c. */
 bool tn_tile_failure_stops(const tn_tile_failure *failure);
 tn_status tn_tile_stop(const tn_house *house, uint32_t cell, uint32_t tile, const tn_tile_failure *failure,

@@ -39,6 +39,11 @@ is 'where it stands' "$(python3 -c 'import json; print(*[f["foot"] + f["head"] f
     '[4495000000, 5345000000, 3210000000, 4060000000, 3645000000, 4495000000, 3210000000, 4060000000]'
 golden no_place "tartan house $scratch/middle.plan '$house'"
 golden explained "tartan explain $scratch/middle.plan '$house' --library all"
+"$TARTAN" explain middle.plan "$house" --library all -o why.svg >/dev/null 2>&1
+is 'the flight where it comes nearest to a place, the person, and the door that is not reached' \
+    "$(for colour in 737373 1a40a6 c7332b; do grep -c "fill=\"#$colour\"" why.svg; done | tr '\n' ' ')" '3 1 1 '
+sed -e 's/ turn half//; s/2.4m | 3m/3m/; s/function stair at cell(2.4m)/function stair at cell(any)/' middle.plan >straight.plan
+golden no_landing "tartan explain $scratch/straight.plan '3m space:4.2m | 3m space:4.2m | 3m space:4.2m ; - ; bedroom bedroom | stair stair | bedroom bedroom' --library all"
 # Plans: a cell in which nobody could go about, whatever is in its walls; no place for a flight, though each cell could be in a house.
 golden plan_cut "tartan explain cut-off.plan '3m space:4m | 0.9m space:4m' --library cabins"
 golden plan_no_place "tartan explain no-place.plan '2.4m space:4.2m | 3.6m space:4.2m' --library cabins"

@@ -117,11 +117,9 @@ static bool asks(const tn_module *module, const tn_instruction *op, tn_term_aske
     }
 }
 
-tn_status tn_clauses_asking(const tn_house_form *form, const tn_house_library_record *library, tn_term_asked *asked,
-                            bool *clauses, tn_error *error)
+tn_status tn_functions_asking(const tn_module *module, tn_term_asked *asked, bool **functions, tn_error *error)
 {
-    const tn_module *module = form->module;
-    bool *known = calloc(module->FUNCTION_count + 1, sizeof *known);
+    bool *known = *functions = calloc(module->FUNCTION_count + 1, sizeof *known);
     if (!known)
         return tn_fail_memory(error);
     for (size_t f = 0; f < module->FUNCTION_count; f++) {
@@ -133,10 +131,24 @@ tn_status tn_clauses_asking(const tn_house_form *form, const tn_house_library_re
             at += op.length;
         }
     }
-    for (uint32_t i = 0; i < library->clause_count; i++)
+    return TN_OK;
+}
+
+tn_status tn_functions_walking(const tn_module *module, bool **functions, tn_error *error)
+{
+    return tn_functions_asking(module, tn_house_term_of_floors, functions, error);
+}
+
+tn_status tn_clauses_asking(const tn_house_form *form, const tn_house_library_record *library, tn_term_asked *asked,
+                            bool *clauses, tn_error *error)
+{
+    const tn_module *module = form->module;
+    bool *known;
+    tn_status status = tn_functions_asking(module, asked, &known, error);
+    for (uint32_t i = 0; status == TN_OK && i < library->clause_count; i++)
         clauses[i] = known[module->HOUSE_CLAUSE_records[library->clause_first + i].holds];
     free(known);
-    return TN_OK;
+    return status;
 }
 
 tn_status tn_clauses_walking(const tn_house_form *form, const tn_house_library_record *library, bool *clauses,

@@ -22,7 +22,11 @@ typedef bool tn_term_asked(uint32_t kind);
 tn_status tn_clauses_asking(const tn_house_form *form, const tn_house_library_record *library, tn_term_asked *asked,
                             bool *clauses, tn_error *error);
 
-/* Which of them ask for walks or ways out. Does a measure? */
+/* Which functions of rules do, by themselves or by one that they call (malloc); for walks or ways out. */
+tn_status tn_functions_asking(const tn_module *module, tn_term_asked *asked, bool **functions, tn_error *error);
+tn_status tn_functions_walking(const tn_module *module, bool **functions, tn_error *error);
+
+/* Which clauses ask for walks or ways out. Does a measure? */
 tn_status tn_clauses_walking(const tn_house_form *form, const tn_house_library_record *library, bool *clauses,
                              tn_error *error);
 /* Those that do not: so many, which the caller frees also after a failure. */

@@ -463,12 +463,10 @@ static void test_sources_are_bounded_together(void **state)
     expect(builder, TN_LIMIT, "the module's sources together pass the limit of 268435456 bytes");
 }
 
-/* The sample with a form that has a function and a void, whose records `void_rule` and `form` are. */
-static void expect_form(const tn_cell_rule_record *void_rule, const tn_form_record *form, const char *reason)
+/* A function that decides on all cells; its number. */
+static uint32_t add_every_cell(tn_builder *builder)
 {
-    tn_builder *builder = sample_builder();
     uint32_t function = (uint32_t)tn_builder_count(builder, TN_SECTION_FUNCTION), begin = tn_builder_offset(builder);
-    tn_cell_rule_record rule = {.name = tn_builder_string(builder, "porch"), .decides = function, .flags = TN_OUTDOOR};
     tn_builder_emit(builder, TN_OP_EVERY, 0, 0);
     tn_builder_emit(builder, TN_OP_DECIDE, 0, 0);
     tn_builder_add_FUNCTION(builder, &(tn_function_record){.name = tn_builder_string(builder, "cells"),
@@ -476,11 +474,20 @@ static void expect_form(const tn_cell_rule_record *void_rule, const tn_form_reco
                                                            .code_begin = begin,
                                                            .code_end = tn_builder_offset(builder),
                                                            .stack_max = 1});
+    return function;
+}
+
+/* The sample with a form that has a function, a void and so wide ways; the function that decides on their cells. */
+static tn_builder *builder_of_form(const tn_cell_rule_record *void_rule, const tn_form_record *form, uint32_t *function)
+{
+    tn_builder *builder = sample_builder();
+    *function = add_every_cell(builder);
+    tn_cell_rule_record rule = {.name = tn_builder_string(builder, "porch"), .decides = *function, .flags = TN_OUTDOOR};
     tn_builder_add_STOREY(builder, &(tn_storey_record){.name = tn_builder_string(builder, "ground"), .height = 9});
     tn_builder_add_CELL_RULE(builder, &rule);
     rule = *void_rule;
     rule.name = tn_builder_string(builder, NULL);
-    rule.decides = function;
+    rule.decides = *function;
     tn_builder_add_CELL_RULE(builder, &rule);
     tn_form_record record = *form;
     record.name = tn_builder_string(builder, "huts");
@@ -490,7 +497,100 @@ static void expect_form(const tn_cell_rule_record *void_rule, const tn_form_reco
     record.storey_count = 1;
     record.rule_count = 2;
     tn_builder_add_FORM(builder, &record);
+    return builder;
+}
+
+static void expect_form(const tn_cell_rule_record *void_rule, const tn_form_record *form, const char *reason)
+{
+    uint32_t function;
+    expect(builder_of_form(void_rule, form, &function), reason ? TN_INVALID : TN_OK, reason);
+}
+
+enum { EVERY_CELL = 1000, NO_CELLS, PAST_ALL }; /* functions of walks, beside those of the sample */
+
+static uint32_t function_of_walk(tn_builder *builder, uint32_t function, uint32_t every)
+{
+    return function == EVERY_CELL ? every
+           : function == NO_CELLS ? TN_NO_RECORD
+           : function == PAST_ALL ? (uint32_t)tn_builder_count(builder, TN_SECTION_FUNCTION)
+                                  : function;
+}
+
+/* The same with ways so wide and a measure of one term: of the walk, unless its own is NO_CELLS. */
+static void expect_walk(int64_t way, tn_meeting_record walk, tn_house_term_record term, const char *factor,
+                        const char *reason)
+{
+    uint32_t every;
+    tn_builder *builder = builder_of_form(&(tn_cell_rule_record){.kind = TN_CELL_VOID},
+                                          &(tn_form_record){.way = way, .headroom = way > 0}, &every);
+    uint32_t sum = (uint32_t)tn_builder_count(builder, TN_SECTION_SUM),
+             meeting = (uint32_t)tn_builder_count(builder, TN_SECTION_MEETING),
+             first = (uint32_t)tn_builder_count(builder, TN_SECTION_HOUSE_TERM);
+    walk.first = function_of_walk(builder, walk.first, every);
+    walk.second = function_of_walk(builder, walk.second, every);
+    walk.through = function_of_walk(builder, walk.through, every);
+    tn_builder_add_MEETING(builder, &walk);
+    term.factor = tn_builder_string(builder, factor);
+    term.part = function_of_walk(builder, term.part, every);
+    term.walk = term.walk == NO_CELLS ? TN_NO_RECORD : term.walk == PAST_ALL ? meeting + 1 : meeting;
+    tn_builder_add_HOUSE_TERM(builder, &term);
+    tn_builder_add_SUM(builder, &(tn_sum_record){.power = 1, .constant = tn_builder_string(builder, "0")});
+    tn_builder_add_HOUSE_MEASURE(
+        builder, &(tn_house_measure_record){
+                     .name = tn_builder_string(builder, "far"), .sum = sum, .term_first = first, .term_count = 1});
     expect(builder, reason ? TN_INVALID : TN_OK, reason);
+}
+
+/* A term of a walk between any cells, by way of any; of ways out of any. */
+static void test_walks(void **state)
+{
+    (void)state;
+    const tn_meeting_record any = {.first = EVERY_CELL, .second = EVERY_CELL, .through = EVERY_CELL};
+    const tn_house_term_record walk = {.kind = TN_HOUSE_LONGEST_WALK, .part = NO_CELLS},
+                               least = {.kind = TN_HOUSE_SHORTEST_WALK, .part = NO_CELLS},
+                               exits = {.kind = TN_HOUSE_EXITS, .part = EVERY_CELL, .walk = NO_CELLS};
+    tn_meeting_record m = any;
+    tn_house_term_record t = walk;
+    expect_walk(2, any, walk, "1", NULL);
+    expect_walk(2, any, least, "-1/3", NULL);
+    expect_walk(2, any, exits, "1", NULL);
+    m.second = m.through = NO_CELLS; /* to the outside, by any cells */
+    expect_walk(2, m, walk, "1", NULL);
+    expect_walk(0, any, walk, "1", "is of walks, and the form does not ask for ways");
+    expect_walk(0, any, least, "1", "is of walks, and the form does not ask for ways");
+    expect_walk(0, any, exits, "1", "is of walks, and the form does not ask for ways");
+    expect_walk(2, any, walk, "0", "has no factor, or 0");
+    expect_walk(2, any, walk, "a", "has no factor, or 0");
+    for (uint32_t kind = TN_HOUSE_LONGEST_WALK; kind <= TN_HOUSE_EXITS; kind++) {
+        t = (tn_house_term_record){.kind = kind, .part = EVERY_CELL};
+        expect_walk(2, any, t, "1", "does not say what it adds up");
+        t = (tn_house_term_record){.kind = kind, .part = NO_CELLS, .walk = NO_CELLS};
+        expect_walk(2, any, t, "1", "does not say what it adds up");
+        t = (tn_house_term_record){.kind = kind, .part = NO_CELLS, .walk = PAST_ALL};
+        expect_walk(2, any, t, "1", "walk");
+    }
+    t = exits;
+    t.part = 0;
+    expect_walk(2, any, t, "1", "names a function of another kind or schema");
+    t.part = PAST_ALL;
+    expect_walk(2, any, t, "1", "part");
+    t = walk;
+    t.kind = TN_HOUSE_EXITS + 1;
+    expect_walk(2, any, t, "1", "kind");
+    uint32_t *const ends[] = {&m.first, &m.second, &m.through};
+    for (size_t i = 0; i < 3; i++) {
+        m = any;
+        *ends[i] = 0;
+        expect_walk(2, m, walk, "1", "is not between cells");
+        *ends[i] = PAST_ALL;
+        expect_walk(2, m, walk, "1", i == 0 ? "first" : i == 1 ? "second" : "through");
+    }
+    m = any;
+    m.first = NO_CELLS;
+    expect_walk(2, m, walk, "1", "first");
+    m = any;
+    m.kind_count = 1;
+    expect_walk(2, m, walk, "1", "kind");
 }
 
 static void test_forms(void **state)
@@ -511,6 +611,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_forms),
+        cmocka_unit_test(test_walks),
         cmocka_unit_test(test_sample_is_good),
         cmocka_unit_test(test_strings),
         cmocka_unit_test(test_names),
