@@ -13,7 +13,7 @@ import sys
 import tempfile
 from fractions import Fraction
 
-HOUSES = 700          # files with more are made smaller
+HOUSES = 3000         # files with more are made smaller
 CLOSE = Fraction(1, 10**5)
 
 
@@ -136,8 +136,9 @@ def form(r):
         lines.append(f"  face cell({r.choice(functions)}, ground) outside right = door")
     lines.append("  face cell(any) outside = wall")
     if r.random() < .6:
-        lines += ["  tile table for hall { item table left 1m..1.8m, back 1.2m..2m }", "  tile bench for hall { against wall  item bench left 300mm..2m, back 0..400mm }"]
-        lines += ["  tile bare for hall { }"] * (r.random() < .5)
+        name = r.choice(functions[-1:] * 2 + functions[:1])
+        lines += [f"  tile table for {name} {{ item table left 1m..1.8m, back 1.2m..2m }}"]
+        lines += [f"  tile bench for {name} {{ against wall  item bench left 300mm..2m, back 0..400mm{r.choice(['', ', up 0..450mm'])} keep seat left 300mm..2m, back 400mm..900mm }}"]
         lines += ['  material pine "#c0a080" price 100 per m2 for table', '  material oak "#806040" price 75.50 per each for bench']
     return lines + ["}"], kinds
 
@@ -148,7 +149,7 @@ def file_of(seed):
     clauses = [condition(r, kinds) for _ in range(4)]
     libraries = {"all": [], "one": [("require", 0)], "two": [("prune", 1), ("require", 2)], "three": [("require", 3), ("prune", 0)]}
     lines += [f"rule c{i} = {text}" for i, text in enumerate(clauses)]
-    lines.append(f"library rows using row {{ trays {r.choice(['1..2', '2', '1..3'])} }}")
+    lines.append(f"library rows using row {{ trays {r.choice(['1..2', '2', '1..3'] if 'tile' not in ' '.join(lines) else ['1..2', '2'])} }}")
     for name, said in libraries.items():
         lines.append(f"library {name} from rows in f {{ {' '.join(f'{kind} c{i}' for kind, i in said)} }}")
     return "\n".join(lines + measures(r, kinds)) + "\n", libraries

@@ -1,6 +1,7 @@
 /* What the declarations of a form come to, found by going through all trays of its schema and all of its sections: for
- * warnings (W201 to W207: functions that no cell may have, tiles and openings that never fit, lines of faces that never
- * apply, values that no section has, materials that none uses), and for editors, which show it.
+ * warnings (W201 to W208: functions that no cell may have, tiles and openings that never fit, lines of faces that never
+ * apply, values that no section has, materials that none uses, walks between cells that none is), and for editors,
+ * which show it.
  *
  * It goes by cells one by one, not by plans, so what it says that may be is what no cell rules out. A tn_survey borrows
  * the module; free it with tn_survey_free.
@@ -104,7 +105,7 @@ typedef struct tn_survey {
     size_t class_count, class_room;
     tn_passed *links;
     size_t link_count, link_room;
-    tn_walk_end *ends; /* none where no warnings are given */
+    tn_walk_end *ends; /* of what the opened file itself asks: survey_walks.c; none where no warnings are given */
     size_t end_count, end_room;
 } tn_survey;
 
