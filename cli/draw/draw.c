@@ -28,6 +28,7 @@ typedef struct draw_settings {
     tn_option_real azimuth, elevation;
     tn_option_number width, max_boxes, grid;
     int profile;
+    const char *plan; /* of the best houses */
 } draw_settings;
 
 static const draw_settings *settings_of(const tn_job *job)
@@ -165,6 +166,7 @@ static tn_draw_request asked(const draw_settings *s)
         .diverse = s->diverse,
         .has_best = s->best.given,
         .best = s->best.value,
+        .plan = s->plan,
         .mirror = s->mirror,
         .title = s->title,
         .paper = s->paper,
@@ -265,6 +267,8 @@ static const tn_option options[] = {
     FLAG("diverse", 0, diverse, "of a sample, or of the best: plans or houses that differ from one another"),
     NUMBER("best", 0, "N", best, 1, TN_DRAW_SAMPLE_MAX,
            "draw the N best plans or houses of the library, with their values"),
+    TEXT("plan", 0, "PLAN", plan,
+         "with --best, of houses: those on one plan, a plan in any spelling, or # and its rank"),
     WISH("least", wanted, "with --best: the plans with the least MEASURE first"),
     WISH("most", wanted, "with --best: the plans with the most MEASURE first"),
     WISH("then-least", wanted, "of equal ones those with the least of this measure; may be repeated"),

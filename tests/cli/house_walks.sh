@@ -326,6 +326,8 @@ for number, name in enumerate(["far", "both", "out"], 1):
 PY
 "$TARTAN" best doors.plan 3 --library doors --plan "$plan" --least far -o best.svg 2>/dev/null
 [ -s best.svg ] || fail 'the best by walks are not drawn'
+"$TARTAN" draw doors.plan --library doors --plan "$plan" --best 2 --least far -o drawn.svg 2>/dev/null
+is 'the best by walks are drawn small, each with its name' "$(grep -c '>#[0-9]*:[0-9]*<' drawn.svg)" 2
 is 'of a library that asks for walks, by another measure' "$("$TARTAN" best furnished.plan 3000 --library some --plan "$plan" --least price 2>/dev/null | grep -v '^#' | sort)" \
     "$("$TARTAN" enumerate furnished.plan --library some --plan "$plan" | sort)"
 sed 's/trays 1..2/trays 1..6/' furnished.plan >many.plan
