@@ -18,7 +18,7 @@ golden bad_function "tartan house cabins.plan \"14' room:14' none ; 1 gable(9:12
 golden too_many "tartan house cabins.plan \"14' room:14' none ; 1 gable(9:12) 1 flat ; living living\""
 golden six_parts "tartan house cabins.plan ';;;;;'"
 golden bad_tile "tartan house cabins.plan \"14' room:14' none ; 1 gable(9:12) 1 flat ; kitchen ; wall window wall wall ; oven.back\""
-golden forbidden_section "tartan house row-houses '2.2m first two room:5m room:4m room:3m | 4m - two room:5m room:4m none ; 1 flat shed(front,3:4) flat brick'"
+golden forbidden_section "tartan house row-houses '2.2m first two room:3m room:4m room:5m | 4m - two none room:4m room:5m ; 1 flat shed(back,3:4) flat brick'"
 golden missing_bar "tartan house cabins.plan \"14' room:14' none | 14' room:14' none ; 1 gable(9:12) 1 flat ; living kitchen\""
 golden misplaced_bar "tartan house cabins.plan \"14' room:14' none | 14' room:14' porch:5' ; 1 gable(9:12) 1 flat ; living | kitchen | porch-deck\""
 golden early_bar "tartan house cabins.plan \"14' room:14' porch:5' | 14' room:14' none ; 1 gable(9:12) 1 flat ; living | porch-deck kitchen\""
@@ -181,9 +181,9 @@ golden view_of_nothing "tartan house cabins.plan \"$room\" -o $scratch/h.ifc --v
 golden cut_of_nothing "tartan house cabins.plan \"$room\" --cut ground"
 golden view_cut "tartan house cabins.plan \"$room\" -o $scratch/h.svg --cut cellar"
 golden no_number "tartan house cabins.plan '#ten'"
-row="2.2m first two room:5m room:4m room:3m | 4m - two room:5m room:4m none ; 2 shed(back,3:5) shed(front,3:4) flat brick"
-"$TARTAN" house row-houses "$row ; stair stair lobby landing larder bath | parlour bedroom kitchen bedroom" -o "$scratch/row.dxf"
-is 'sections of a sheet that are beside the wall in the middle' "$(sed -n 's/^.-.  section/section/p' "$scratch/row.dxf" | tr -d '\r' | tr '\n' ' ')" 'section x = 1.55m section y = 6m '
+row="2.2m first two room:3m room:4m room:5m | 4m - two none room:4m room:5m ; 2 shed(front,3:5) shed(back,3:4) flat brick"
+"$TARTAN" house row-houses "$row ; larder bath lobby landing stair stair | kitchen bedroom parlour bedroom" -o "$scratch/row.dxf"
+is 'sections of a sheet that are beside the wall in the middle' "$(sed -n 's/^.-.  section/section/p' "$scratch/row.dxf" | tr -d '\r' | tr '\n' ' ')" 'section x = 1.55m section y = -1m '
 # leftmost_cuts FILE: of each drawing the least x of what is cut.
 leftmost_cuts() {
     python3 - "$1" <<'PYTHON'

@@ -69,7 +69,7 @@ PY
 "$TARTAN" house apartments "$("$TARTAN" sample apartments 1 --library apartments --seed 3)" --view plan:first --scale 100 -o "$scratch/between.svg" || fail 'no floor between others'
 is 'up and down in one place' "$(grep -o '>\(UP 16R\|DN\)<' "$scratch/between.svg" | LC_ALL=C sort | tr -d '\n')" '>DN<>UP 16R<'
 is 'views of one row house' "$(grep -c '>axonometric<' "$scratch/one.svg")" 1
-house='2.2m first three room:5m room:4m room:3m | 4m - three room:5m room:4m none | 4m first three room:5m room:4m none | 2.2m - three room:5m room:4m room:3m | 4m first three room:5m room:4m none | 2.2m - three room:5m room:4m room:3m ; 2 flat flat shed(front,1:4) brick'
+house='2.2m first three room:3m room:4m room:5m | 4m - three none room:4m room:5m | 4m first three none room:4m room:5m | 2.2m - three room:3m room:4m room:5m | 4m first three none room:4m room:5m | 2.2m - three room:3m room:4m room:5m ; 2 flat flat shed(back,1:4) brick'
 "$TARTAN" house row-houses "$house" -o "$scratch/house.svg" 2>"$scratch/said" || fail "no row: $(cat "$scratch/said")"
 is 'three row houses' "$(grep -o '>1:[0-9]*<' "$scratch/house.svg")" '>1:100<'
 is 'their views' "$(grep -c '>axonometric, 1:200<' "$scratch/house.svg")" 1
