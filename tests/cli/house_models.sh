@@ -32,8 +32,8 @@ library häuser using haus { trays 1..3 }
 form gebäude of haus {
   storey erdgeschoß 2700mm
   spine wohnen
-  wall 300mm  partition 100mm  deck 300mm  roof 250mm
-  section wohnen roof = flat
+  wall 300mm  partition 100mm  floor 300mm  roof 250mm
+  option wohnen roof = flat
   function küche at cell(any)
   opening fenster-nach-süden-mit-einem-sehr-langen-namen-und-noch-mehr wide 1m high 1m sill 900mm
   opening tür wide 900mm high 2m passage
