@@ -72,11 +72,11 @@ static void draw_symbols(tn_paint *paint)
 
 static void draw_dimensions(tn_paint *paint)
 {
-    static const tn_dimension all[] = {{{30, 215}, {200, 215}, 12, "5.997m", false},
-                                       {{200, 215}, {30, 215}, 14, "6 m", false},
-                                       {{230, 240}, {230, 205}, 15, "350", false},
-                                       {{260, 205}, {260, 240}, 15, "350", false},
-                                       {{300, 240}, {400, 205}, -12, "9'-11\"", false}};
+    static const tn_dimension all[] = {{{30, 215}, {200, 215}, 12, "5.997m", false, false},
+                                       {{200, 215}, {30, 215}, 14, "6 m", false, false},
+                                       {{230, 240}, {230, 205}, 15, "350", false, false},
+                                       {{260, 205}, {260, 240}, 15, "350", false, false},
+                                       {{300, 240}, {400, 205}, -12, "9'-11\"", false, false}};
     tn_paint_layer(paint, TN_LAYER_DIMENSION);
     tn_paint_weight(paint, TN_WEIGHT_HATCH);
     tn_paint_capitals(paint, 1.8 * TN_POINTS_PER_MM, false);

@@ -469,10 +469,10 @@ def check_dxf(path, groups, house):
             used[value] += 1
     check(f"layers {set(used) - known}", set(used) <= known)
     said = {unescaped(e["1"]) for drawing in drawings_of(groups).values() for e in drawing if e.get("8") == "A-AREA-IDEN"}
-    names = {text for text in said if not re.fullmatch(r"[\d.]+( (sf|m\u00b2))?", text)}
+    names = {text for text in said if not re.fullmatch(r"[\d.]+( (SF|m\u00b2))?", text)}
     net = [float(F(r["net"]) / F(10) ** 18) for r in house["rooms"]]
-    written = {f"{area:.1f} m\u00b2" for area in net} | {f"{area / 0.3048 ** 2:.0f} sf" for area in net}
-    check("areas are net", {text for text in said if text.endswith(("sf", "\u00b2"))} <= written)
+    written = {f"{area:.1f} m\u00b2" for area in net} | {f"{area / 0.3048 ** 2:.0f} SF" for area in net}
+    check("areas are net", {text for text in said if text.endswith(("SF", "\u00b2"))} <= written)
     check("as many numbers as rooms", len([text for text in said if re.fullmatch(r"[\d.]+", text)]) >= len(net))
     for title, drawing in drawings_of(groups).items():
         check_whole(title, drawing)

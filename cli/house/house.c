@@ -274,8 +274,9 @@ static const tn_option options[] = {
     REAL("longitude", 0, "DEGREES", longitude, "and to the east"),
     NUMBER("dpi", 0, "N", dpi, 10, 1200, "resolution of a .png (default 150)"),
     CHOICE("profile", 0, "WORD", profile, "auto|iso|us",
-           "the names of layers of a .dxf: by ISO 13567 (iso) or by the US National CAD Standard (us); by default the "
-           "latter for houses in feet"),
+           "how an office draws: by ISO standards (iso: metres, paper of the A series, layers of a .dxf by ISO 13567) or "
+           "by the US National CAD Standard (us: feet and inches, ARCH sheets, layers of the AIA); by default the latter "
+           "for houses in feet"),
     TEXT("form", 0, "NAME", form, "which form of the file; may be left out where the file has only one"),
     TEXT("library", 0, "NAME", library,
          "the library of houses that the number belongs to, or that a line with values left out is of; may be left out "

@@ -52,7 +52,7 @@ typedef struct tn_house_filed {
     const char *author;   /* of the building model; or NULL */
     const double *latitude, *longitude;
     uint32_t scale, dpi; /* of drawings, 1:scale; 0: as it suits, 150 */
-    tn_profile profile;  /* of drawings: whose names the layers of a DXF have */
+    tn_profile profile;  /* of drawings: by whose custom they are drawn */
     tn_watch *watch;     /* or NULL */
 } tn_house_filed;
 

@@ -30,7 +30,7 @@ typedef struct tn_picture {
     const char *path;        /* a file; NULL: into memory or a page */
     tn_canvas_format format; /* BY_PATH: what the path's extension says, or, without a path, into a page */
     uint32_t dpi;            /* of a PNG; 0: 150 */
-    tn_profile profile;      /* of what offices draw: names of layers in a DXF */
+    tn_profile profile;      /* of what offices draw: units, paper, names of layers */
     unsigned number;         /* into a page: which of its pictures, so that no two ids are the same */
     char *element;           /* into memory or a page: what was drawn once it is committed, which the caller frees */
     size_t size;

@@ -652,22 +652,34 @@ static void trace_line(tn_paint *paint, double x0, double y0, double x1, double 
     tn_paint_line_to(paint, x1, y1);
 }
 
+/* The oblique strokes at its ends. */
+static void trace_strokes(tn_paint *paint, const double ends[2][2], const double along[2], const double aside[2])
+{
+    double stroke = DIMENSION_STROKE * paint->now.size, x = stroke * (along[0] + aside[0]),
+           y = stroke * (along[1] + aside[1]);
+    for (int i = 0; i < 2; i++)
+        trace_line(paint, ends[i][0] - x, ends[i][1] - y, ends[i][0] + x, ends[i][1] + y);
+}
+
 /* along: a direction, `aside` the one to the left of it. */
 static void trace_dimension(tn_paint *paint, const tn_dimension *d, const double ends[2][2], const double along[2],
                             const double aside[2])
 {
     const double *points[2] = {d->from, d->to};
-    double size = paint->now.size, out = d->offset < 0 ? -1 : 1, stroke = DIMENSION_STROKE * size;
-    for (int i = 0; i < 2; i++) {
-        double past = out * DIMENSION_BEYOND * size,
-               gap = d->offset == 0 ? -past : out * fmin(DIMENSION_GAP * size, fabs(d->offset));
-        double x = stroke * (along[0] + aside[0]), y = stroke * (along[1] + aside[1]);
+    double size = paint->now.size, out = d->offset < 0 ? -1 : 1, past = out * DIMENSION_BEYOND * size,
+           gap = d->offset == 0 ? -past : out * fmin(DIMENSION_GAP * size, fabs(d->offset)),
+           thin = paint->now.pen.width;
+    for (int i = 0; i < 2; i++)
         trace_line(paint, points[i][0] + gap * aside[0], points[i][1] + gap * aside[1], ends[i][0] + past * aside[0],
                    ends[i][1] + past * aside[1]);
-        trace_line(paint, ends[i][0] - x, ends[i][1] - y, ends[i][0] + x, ends[i][1] + y);
-    }
     trace_line(paint, ends[0][0], ends[0][1], ends[1][0], ends[1][1]);
+    if (d->heavy) {
+        tn_paint_stroke(paint);
+        tn_paint_weight(paint, TN_WEIGHT_CUT);
+    }
+    trace_strokes(paint, ends, along, aside);
     tn_paint_stroke(paint);
+    paint->now.pen.width = thin;
 }
 
 /* To be read from below, or from the right. */

@@ -88,7 +88,7 @@ typedef struct tn_dimension {
     double from[2], to[2];
     double offset;
     const char *text;
-    bool below;
+    bool below, heavy; /* heavy: its strokes are as wide as lines of what is cut */
 } tn_dimension;
 
 /* Draws it with the state's pen, colour and face: lines out from the points, the line between them, an oblique stroke

@@ -43,6 +43,22 @@ for a, b in zip(starts, starts[1:]):
     y = [float(value) for code, value in pairs[a:b] if code.strip() in ("20", "21")]
     hips += sum(abs(abs(x[i + 1] - x[i]) - abs(y[i + 1] - y[i])) < 1e-3 and abs(x[i + 1] - x[i]) > 100 for i in range(len(x) - 1))
 print(hips)')" 4
+# By the custom of another country: units, paper, scales, ends of dimensions.
+"$TARTAN" house cottage '#541:77' --profile iso -o "$scratch/iso.svg" -o "$scratch/iso.dxf" || fail 'no cottage by ISO'
+"$TARTAN" house row-houses '#2:9001' --profile us -o "$scratch/us.svg" -o "$scratch/us.dxf" 2>"$scratch/out" || fail 'no house in feet'
+# drawn FILE: paper in whole millimetres or inches, heavy strokes of dimensions, feet, metres, areas, scales
+drawn() {
+    sed -n "s/.*<svg [^>]*width=\"\([0-9.]*\)pt\".*/\1/p" "$1" | awk '{ printf "%.1f ", $1 / 72 * 25.4 }'
+    grep -c '>[0-9]*'"'"'-[0-9 /]*"<' "$1"
+    grep -c '>[0-9]*\.[0-9]\{2,3\}<' "$1"
+    grep -c '>[0-9.]* \(SF\|m²\) net<' "$1"
+    grep -o '>\(1:[0-9]*\|[0-9/]*" = 1'"'"'-0"\)<' "$1"
+}
+feet=$(drawn "$scratch/us.svg" | tr '\n' ' ') metres=$(drawn "$scratch/iso.svg" | tr '\n' ' ')
+[[ $feet =~ ^914.4\ [1-9][0-9]+\ 0\ [1-9][0-9]*\ \>1/8\"\ =\ 1\'-0\"\<\ $ ]] || fail "a house in feet: $feet"
+[[ $metres =~ ^(420.0|594.0|841.0)\ 0\ [1-9][0-9]+\ [1-9][0-9]*\ \>1:[0-9]+\<\ $ ]] || fail "a house in metres: $metres"
+is 'eighths of inches' "$(grep -c '[0-9]/\(16\|32\|64\)"<' "$scratch/us.svg")" 0
+is 'units of DXF' "$(for f in us iso; do tr -d '\r' <"$scratch/$f.dxf" | grep -A2 '^\$INSUNITS$' | tail -n 1; done | tr '\n' ' ')" '1 4 '
 # Small scales leave less room: marks of sections, too, stand apart from dimensions.
 "$TARTAN" house cottage "$cottage" --scale 192 -o "$scratch/house.svg" 2>"$scratch/said" || fail "no cottage: $(cat "$scratch/said")"
 is 'a cottage at 1/16"' "$(python3 -B "$tests/house_drawn.py" "$scratch/house.svg" && echo fine)" fine

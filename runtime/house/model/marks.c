@@ -93,23 +93,23 @@ double tn_mark_width(const char *text)
 
 /* ---- lengths */
 
-/* Feet, inches and 64ths, as drawings have them: 5'-6 1/2". */
-static void write_feet(double nanometres, char text[32])
+/* Feet, inches and parts of them, as drawings have them: 5'-6 1/2". */
+static void write_feet(double nanometres, unsigned bottom, char text[32])
 {
-    int64_t parts = (int64_t)floor(nanometres / ((double)TN_INCH_NM / 64) + 0.5), inches = parts / 64;
-    unsigned top = (unsigned)(parts % 64), bottom = 64;
+    int64_t parts = (int64_t)floor(nanometres / ((double)TN_INCH_NM / bottom) + 0.5), inches = parts / bottom;
+    unsigned top = (unsigned)(parts % bottom);
     for (; top > 0 && top % 2 == 0; top /= 2)
         bottom /= 2;
     int used = snprintf(text, 32, "%" PRId64 "'-%" PRId64, inches / 12, inches % 12);
     snprintf(text + used, 32 - (size_t)used, top ? " %u/%u\"" : "\"", top, bottom);
 }
 
-void tn_mark_length(const tn_house *house, bool us, double nanometres, char text[32])
+void tn_mark_length(const tn_mark_style *style, double nanometres, char text[32])
 {
     int64_t millimetres = (int64_t)floor(nanometres / 1e6 + 0.5);
-    if (us)
-        write_feet(nanometres, text);
-    else if (tn_house_length_style(house) == TN_STYLE_MILLIMETRES)
+    if (style->us)
+        write_feet(nanometres, style->eighths ? 8 : 64, text);
+    else if (style->millimetres)
         snprintf(text, 32, "%" PRId64, millimetres);
     else if (millimetres % 10 == 0)
         snprintf(text, 32, "%" PRId64 ".%02d", millimetres / 1000, (int)(millimetres % 1000 / 10));
@@ -120,7 +120,7 @@ void tn_mark_length(const tn_house *house, bool us, double nanometres, char text
 void tn_mark_area(bool us, double square_nanometres, char text[32])
 {
     if (us)
-        snprintf(text, 32, "%.0f sf", square_nanometres / ((double)TN_FOOT_NM * (double)TN_FOOT_NM));
+        snprintf(text, 32, "%.0f SF", square_nanometres / ((double)TN_FOOT_NM * (double)TN_FOOT_NM));
     else
         snprintf(text, 32, "%.1f m\xc2\xb2", square_nanometres / 1e18);
 }
@@ -139,8 +139,8 @@ typedef struct chain_text {
 } chain_text;
 
 /* A dimension and what it says: above the line if it has room there, or else below it, or nothing. */
-static void put_length(tn_marks *marks, const tn_house *house, double from, double to, double at, bool upright,
-                       const tn_mark_style *style, chain_text *so_far)
+static void put_length(tn_marks *marks, double from, double to, double at, bool upright, const tn_mark_style *style,
+                       chain_text *so_far)
 {
     tn_mark mark = {.kind = TN_MARK_SPAN,
                     .layer = TN_MARK_DIMENSION,
@@ -149,9 +149,10 @@ static void put_length(tn_marks *marks, const tn_house *house, double from, doub
                     .u1 = upright ? at : to,
                     .v1 = upright ? to : at,
                     .high = style->lettering,
-                    .upright = upright};
+                    .upright = upright,
+                    .heavy = style->us};
     char text[32];
-    tn_mark_length(house, style->us, to - from, text);
+    tn_mark_length(style, to - from, text);
     double half = tn_mark_width(text) * style->lettering / 2, middle = (from + to) / 2;
     for (int below = 2 * half > to - from; below < 2 && !mark.text[0]; below++) {
         if (middle - half < so_far->end[below])
@@ -163,8 +164,7 @@ static void put_length(tn_marks *marks, const tn_house *house, double from, doub
     add(marks, mark);
 }
 
-void tn_marks_chain(tn_marks *marks, const tn_house *house, double *places, size_t count, double at, bool upright,
-                    const tn_mark_style *style)
+void tn_marks_chain(tn_marks *marks, double *places, size_t count, double at, bool upright, const tn_mark_style *style)
 {
     size_t stops = 0;
     chain_text so_far = {{-INFINITY, -INFINITY}};
@@ -173,7 +173,7 @@ void tn_marks_chain(tn_marks *marks, const tn_house *house, double *places, size
         if (stops == 0 || places[i] > places[stops - 1])
             places[stops++] = places[i];
     for (size_t i = 1; i < stops; i++)
-        put_length(marks, house, places[i - 1], places[i], at, upright, style, &so_far);
+        put_length(marks, places[i - 1], places[i], at, upright, style, &so_far);
 }
 
 /* ---- levels */
@@ -188,12 +188,11 @@ static double rounded(bool us, double v)
 }
 
 /* A height above the lowest floor with the name of what is there, over a line with a triangle that points to it. */
-static void put_level(tn_marks *marks, const tn_house *house, double u, double v, const char *name,
-                      const tn_mark_style *style)
+static void put_level(tn_marks *marks, double u, double v, const char *name, const tn_mark_style *style)
 {
     char text[sizeof marks->items->text], shown[24], length[32];
     double lettering = style->lettering, said = rounded(style->us, v), tip = 0.45 * lettering;
-    tn_mark_length(house, style->us, fabs(said), length);
+    tn_mark_length(style, fabs(said), length);
     tn_utf8_copy(name, sizeof shown, shown);
     snprintf(text, sizeof text, "%s%s%s%s", shown, shown[0] ? " " : "",
              style->us  ? ""
@@ -235,7 +234,7 @@ static void put_heights(const tn_house *house, double u, double top, const tn_ma
     if ((double)house->form->level[storeys] < top) /* the roof's deck */
         places[count++] = (double)house->form->level[storeys];
     places[count++] = rounded(style->us, top);
-    tn_marks_chain(marks, house, places, count, u, true, style);
+    tn_marks_chain(marks, places, count, u, true, style);
 }
 
 tn_status tn_marks_levels(const tn_house *house, const double low[2], const double high[2], bool cut,
@@ -254,13 +253,13 @@ tn_status tn_marks_levels(const tn_house *house, const double low[2], const doub
         double v = (double)form->level[k];
         if (v > high[1] || v - last < 1.6 * lettering)
             continue;
-        put_level(marks, house, u, v,
+        put_level(marks, u, v,
                   top ? "" : tn_text(form->module, form->module->STOREY_records[form->record->storey_first + k].name),
                   style);
         last = v;
     }
     if (high[1] - last >= 1.6 * lettering)
-        put_level(marks, house, u, high[1], "top", style);
+        put_level(marks, u, high[1], "top", style);
     if (cut)
         put_heights(house, high[0] + 3 * lettering, high[1], style, marks);
     return marks->failed ? tn_fail_memory(error) : TN_OK;

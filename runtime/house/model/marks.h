@@ -27,7 +27,7 @@ typedef enum tn_mark_kind {
     TN_MARK_LINE,   /* from (u0, v0) to (u1, v1) */
     TN_MARK_TEXT,   /* in the middle of (u0, v0), so high; upright: read from the right */
     TN_MARK_CIRCLE, /* about (u0, v0), through (u1, v1) */
-    TN_MARK_SPAN,   /* a dimension from (u0, v0) to (u1, v1), its text so high; or below the line; or empty */
+    TN_MARK_SPAN,   /* a dimension from (u0, v0) to (u1, v1), its text so high; or below the line; or empty; its strokes heavy */
     TN_MARK_LEAF,   /* of a door, hinged at (u0, v0) and open to (u1, v1); shut to its left, or to its right */
     TN_MARK_NORTH,  /* an arrow about (u0, v0), from above so many degrees (high) clockwise, and its letter: within (u1, v1) */
     TN_MARK_ITEM    /* a symbol, with its corner at (u0, v0) and the opposite one at (u1, v1) */
@@ -49,7 +49,7 @@ typedef struct tn_mark {
     tn_mark_layer layer;
     double u0, v0, u1, v1;
     double high; /* of what is written; of north: its angle; of the ground where it is cut: twice how deep the earth is shown */
-    bool upright, below, right;
+    bool upright, below, right, heavy;
     tn_marked_item item;
     char text[48];
 } tn_mark;
@@ -70,14 +70,15 @@ typedef struct tn_section_place {
 } tn_section_place;
 
 /* How the marks of a drawing are written. lettering: the size of what is written, whose capitals are 2.5 mm high on
- * paper. us: lengths in feet and inches, areas in square feet, rooms numbered from 101; otherwise in metres, or in
- * millimetres if the form's author writes these, in square metres, and from 0.01. coarse: the scale is too small for
+ * paper. us: lengths in feet and inches (eighths: of a
+ * form in metres, to the nearest 1/8"), areas in square feet, rooms numbered from 101, heavy strokes of dimensions;
+ * otherwise in metres, or in millimetres, in square metres, and from 0.01. coarse: the scale is too small for
  * tags, and for dimensions of openings. undimensioned: a plan of the
  * roof has no dimensions. sections: what is shown in plans. north: where it is on plans, in degrees from
  * above, clockwise; or NULL. */
 typedef struct tn_mark_style {
     double lettering;
-    bool us, coarse, bare, undimensioned;
+    bool us, eighths, millimetres, coarse, bare, undimensioned;
     const double *north;
     const tn_section_place *sections;
     size_t section_count;
@@ -85,17 +86,17 @@ typedef struct tn_mark_style {
 
 /* Writes a length as drawings have it: 5'-6 1/2" to the nearest 64th, 1.65 to the nearest millimetre, or 1650. A text
  * of 32 holds any. */
-void tn_mark_length(const tn_house *house, bool us, double nanometres, char text[32]);
+void tn_mark_length(const tn_mark_style *style, double nanometres, char text[32]);
 
 /* About how wide a line of lettering is, in its height. */
 double tn_mark_width(const char *text);
 
-/* The same of an area, in square feet or square metres: 86 sf, 7.9 m and a raised 2. */
+/* The same of an area, in square feet or square metres: 86 SF, 7.9 m and a raised 2. */
 void tn_mark_area(bool us, double square_nanometres, char text[32]);
 
 /* Dimensions between one place and the next in a chain: along u at v = at, or, upright, along v at u = at. The places
  * are sorted, and those that are the same are one. What has no room between its ends is written below the chain. */
-void tn_marks_chain(tn_marks *marks, const tn_house *house, double *places, size_t count, double at, bool upright,
+void tn_marks_chain(tn_marks *marks, double *places, size_t count, double at, bool upright,
                     const tn_mark_style *style);
 void tn_marks_line(tn_marks *marks, tn_mark_layer layer, double u0, double v0, double u1, double v1);
 void tn_marks_leaf(tn_marks *marks, double u0, double v0, double u1, double v1, bool right);
@@ -104,6 +105,7 @@ void tn_marks_text(tn_marks *marks, tn_mark_layer layer, double u, double v, dou
 
 /* Where north is on a plan that reaches so far: beyond its upper right corner. style->north: there. */
 void tn_marks_north(tn_marks *marks, const double high[2], const tn_mark_style *style);
+
 void tn_marks_circle(tn_marks *marks, tn_mark_layer layer, double u, double v, double radius);
 
 void tn_marks_item(tn_marks *marks, const tn_marked_item *item, double u0, double v0, double u1, double v1);

@@ -219,13 +219,13 @@ static void dimension_side(const tn_planned *p, const struct tn_plan_side *side,
     if (count) {
         places[count++] = ends[0];
         places[count++] = ends[1];
-        tn_marks_chain(marks, house, places, count, at, side->upright, p->style);
+        tn_marks_chain(marks, places, count, at, side->upright, p->style);
         at += NEXT_CHAIN * out;
     }
     if (side->high || rooms == 0)
         return;
-    tn_marks_chain(marks, house, planes, rooms, at, side->upright, p->style);
-    tn_marks_chain(marks, house, ends, 2, at + NEXT_CHAIN * out, side->upright, p->style);
+    tn_marks_chain(marks, planes, rooms, at, side->upright, p->style);
+    tn_marks_chain(marks, ends, 2, at + NEXT_CHAIN * out, side->upright, p->style);
 }
 
 /* Lines where sections are cut, outside of the house: arrows look where the section does, each with its letter. */

@@ -263,8 +263,8 @@ tn_status tn_marks_roof(const tn_house *house, const double low[2], const double
     free(planes.items);
     double across[2] = {low[0], high[0]}, along[2] = {low[1], high[1]}, out = CHAIN * style->lettering;
     if (!style->undimensioned) {
-        tn_marks_chain(marks, house, across, 2, low[1] - out, false, style);
-        tn_marks_chain(marks, house, along, 2, low[0] - out, true, style);
+        tn_marks_chain(marks, across, 2, low[1] - out, false, style);
+        tn_marks_chain(marks, along, 2, low[0] - out, true, style);
     }
     if (style->north)
         tn_marks_north(marks, high, style);

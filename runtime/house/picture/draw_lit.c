@@ -62,7 +62,8 @@ static tn_status choose_scale(lit_page *p, tn_error *error)
 {
     const uint32_t *scales;
     size_t count = tn_scale_choices(p->metric, &scales);
-    tn_mark_style style = {.us = !p->metric};
+    tn_mark_style style = {.us = !p->metric,
+                           .millimetres = tn_house_length_style(p->what->house) == TN_STYLE_MILLIMETRES};
     tn_status status = TN_OK;
     bool fits = false;
     for (size_t i = 0; status == TN_OK && !fits && i < count; i++) {

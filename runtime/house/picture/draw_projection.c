@@ -225,7 +225,8 @@ static void paint_span(const tn_drawing_frame *f, const tn_mark *m)
     const tn_dimension dimension = {.from = {place_u(f, m->u0), place_v(f, m->v0)},
                                     .to = {place_u(f, m->u1), place_v(f, m->v1)},
                                     .text = m->text,
-                                    .below = m->below};
+                                    .below = m->below,
+                                    .heavy = m->heavy};
     tn_paint_face(f->paint, m->high * f->scale, false);
     tn_paint_dimension(f->paint, &dimension);
 }

@@ -29,6 +29,7 @@ typedef struct sheet {
     const tn_house_drawing *drawing;
     tn_house_drawn *drawn; /* [drawing->count]; owned */
     bool metric;
+    tn_length_style lengths;
     tn_section_place sections[TN_SECTIONS_MOST];
     tn_mark_style style;
     uint32_t scale;
@@ -106,19 +107,18 @@ static void name_kinds(sheet *s)
 
 static void say_all(sheet *s)
 {
-    tn_length_style style = tn_house_length_style(s->house);
     name_kinds(s);
     snprintf(s->measures, sizeof s->measures, "areas are net, dimensions in %s",
-             s->style.us                     ? "feet and inches"
-             : style == TN_STYLE_MILLIMETRES ? "millimetres"
-                                             : "metres");
+             s->style.us            ? "feet and inches"
+             : s->style.millimetres ? "millimetres"
+                                    : "metres");
     tn_drawing_says_write(&s->drawing->says, s->said, sizeof s->said);
     s->block = (tn_title_block){.title = s->drawing->title,
                                 .says = &s->drawing->says,
                                 .kinds = s->kinds,
                                 .measures = s->measures,
                                 .metric = s->metric,
-                                .style = style};
+                                .style = s->lengths};
 }
 
 static bool is_section(const tn_aspect *aspect)
@@ -151,13 +151,15 @@ static void write_caption(const sheet *s, size_t i, char caption[CAPTION_MAX])
 {
     const tn_aspect *aspect = &s->drawing->aspects[i];
     const char *title = s->drawn[i].projection.title;
-    char scale[32];
+    char scale[32], at[32];
     size_t section = 0;
     for (size_t k = 0; k < i; k++)
         section += is_section(&s->drawing->aspects[k]);
     if (is_section(aspect) && section < s->style.section_count) {
-        char letter = s->sections[section].letter;
-        snprintf(caption, CAPTION_MAX, "%c-%c  %s", letter, letter, title);
+        const tn_section_place *place = &s->sections[section];
+        tn_mark_length(&s->style, fabs((double)place->at), at);
+        snprintf(caption, CAPTION_MAX, "%c-%c  section %c = %s%s", place->letter, place->letter,
+                 place->across_x ? 'x' : 'y', place->at < 0 ? "-" : "", at);
     } else if (aspect->kind == TN_ASPECT_ELEVATION && s->style.north) {
         snprintf(caption, CAPTION_MAX, "%s, %s", title, compass_of(aspect->side, *s->style.north));
     } else if (s->smaller > 1 && may_be_smaller(aspect)) {
@@ -561,6 +563,14 @@ static void paint_all(const sheet *s, const tn_canvas *canvas)
         paint_foot(s, paint);
 }
 
+/* Those of the form's author, or, if an office is used to others, feet or metres. */
+static tn_length_style lengths_of(const tn_house *house, tn_profile profile)
+{
+    tn_length_style own = tn_house_length_style(house);
+    bool us = tn_profile_of(profile, own == TN_STYLE_FEET) == TN_PROFILE_US;
+    return us ? TN_STYLE_FEET : own == TN_STYLE_FEET ? TN_STYLE_METRES : own;
+}
+
 tn_status tn_house_draw(const tn_house *house, const tn_solids *solids, const tn_house_drawing *drawing, tn_picture *to,
                         tn_error *error)
 {
@@ -568,9 +578,12 @@ tn_status tn_house_draw(const tn_house *house, const tn_solids *solids, const tn
                .drawing = drawing,
                .smaller = 1,
                .drawn = calloc(drawing->count + 1, sizeof *s.drawn),
-               .metric = tn_house_length_style(house) != TN_STYLE_FEET,
+               .lengths = lengths_of(house, to->profile),
                .foot = 30 + NOTE_LEADING * NOTE_LINES * (double)drawing->note_count};
+    s.metric = s.lengths != TN_STYLE_FEET;
     s.style.us = !s.metric;
+    s.style.eighths = s.style.us && tn_house_length_style(house) != TN_STYLE_FEET;
+    s.style.millimetres = s.lengths == TN_STYLE_MILLIMETRES;
     s.style.north = drawing->says.north;
     letter_sections(&s);
     say_all(&s);

@@ -35,8 +35,8 @@ static void add_opening(tn_sheet_tables *tables, const tn_house *house, const tn
     *row = (tn_table_row){.name = ""};
     snprintf(row->name, sizeof row->name, "%s", tagged->tag);
     tn_utf8_copy(tn_form_kind_text(house->form, tagged->kind), sizeof row->what, row->what);
-    tn_mark_length(house, style->us, (double)opening->wide, wide);
-    tn_mark_length(house, style->us, (double)opening->high, high);
+    tn_mark_length(style, (double)opening->wide, wide);
+    tn_mark_length(style, (double)opening->high, high);
     snprintf(row->size, sizeof row->size, "%zu: %s \xc3\x97 %s", tagged->count, wide, high);
 }
 

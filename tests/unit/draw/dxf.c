@@ -281,7 +281,7 @@ static void writes_dimensions(void **state)
         drawing d;
         begin(&d, &options, TN_PROFILE_BY_MEASURES);
         tn_paint_view_begin(d.paint, &view);
-        const tn_dimension dimension = {{0, 360}, {points, 360}, 36, all[i].text, false};
+        const tn_dimension dimension = {{0, 360}, {points, 360}, 36, all[i].text, false, false};
         tn_paint_dimension(d.paint, &dimension);
         tn_paint_view_end(d.paint);
         char *written = end(&d), *text = strstr(written, "0\nDIMENSION\n");
@@ -310,7 +310,7 @@ static void writes_texts(void **state)
 static void has_handles_once(void **state)
 {
     static const tn_drawn_symbol hook = {"HOOK", draw_hook, NULL};
-    static const tn_dimension dimension = {{10, 10}, {60, 10}, 8, "50", false};
+    static const tn_dimension dimension = {{10, 10}, {60, 10}, 8, "50", false, false};
     static const double dashes[] = {3, 1, 2};
     (void)state;
     drawing d;

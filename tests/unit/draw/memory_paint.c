@@ -22,7 +22,7 @@ static void draw_symbol(tn_paint *paint, const void *of)
 /* Symbols, hatches and dimensions, some more than once. */
 static void draw_meanings(tn_paint *paint)
 {
-    static const tn_dimension dimension = {{10, 10}, {60, 10}, 8, "50", false};
+    static const tn_dimension dimension = {{10, 10}, {60, 10}, 8, "50", false, false};
     static const tn_drawn_view view = {"view", 0, 0, 100, 100, {0, 100}, 1};
     tn_paint_view_begin(paint, &view);
     for (int i = 0; i < 30; i++) {

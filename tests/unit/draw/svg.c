@@ -494,7 +494,7 @@ static void turns_dimensions_to_readers(void **state)
     for (int i = 0; i < 4; i++) {
         drawing d;
         begin(&d);
-        const tn_dimension dimension = {{50, 50}, {ends[i][0], ends[i][1]}, 10, "50", false};
+        const tn_dimension dimension = {{50, 50}, {ends[i][0], ends[i][1]}, 10, "50", false, false};
         tn_paint_dimension(d.paint, &dimension);
         char *written = end(&d);
         const char *text = strstr(written, "<text ");
