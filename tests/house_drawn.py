@@ -86,7 +86,8 @@ def main():
     used = len(re.findall(r"<use ", svg))
     wide = {tag: float(size.split()[1]) for tag, (_, size) in table.items()}
     leaves = sum(kinds[kind] * (2 if wide[tag] > 1.22 else 1) for tag, (kind, _) in table.items() if tag[0] == "D")
-    check(f"{used} symbols for {len(things)} things and {leaves} leaves", used == len(things) + leaves)
+    panes = sum(kinds[kind] for tag, (kind, _) in table.items() if tag[0] == "W")
+    check(f"{used} symbols for {len(things)} things, {leaves} leaves and {panes} panes", used == len(things) + leaves + panes)
     # Forms have storeys that not each house has.
     levels = {found[1] for text in said if (found := re.fullmatch(r"(\S+) [+\u00b1-]\d[\d.]*", text))}
     storeys = {cell["storey"] for cell in house["cells"]}

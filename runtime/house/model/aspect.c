@@ -96,14 +96,15 @@ static void write_title(const tn_house *house, const tn_aspect *aspect, char *te
     }
 }
 
-/* Doors are drawn open on plans, and furniture by symbols; it is left out where it is not wanted. */
+/* Doors are drawn open on plans, and panes and furniture by symbols; this is left out where it is not wanted. */
 static void drop_parts(tn_blocks *blocks, const tn_aspect *aspect)
 {
     size_t kept = 0;
     for (size_t i = 0; i < blocks->count; i++) {
         tn_solid_kind kind = blocks->items[i].kind;
         bool plan = aspect->kind == TN_ASPECT_PLAN || aspect->kind == TN_ASPECT_ROOF;
-        if ((kind == TN_SOLID_LEAF && plan) || (kind == TN_SOLID_ITEM && (plan || aspect->bare)))
+        if (((kind == TN_SOLID_LEAF || kind == TN_SOLID_PANE) && plan) ||
+            (kind == TN_SOLID_ITEM && (plan || aspect->bare)))
             continue;
         blocks->items[kept++] = blocks->items[i];
     }
@@ -278,8 +279,12 @@ void tn_house_projection_extent(const tn_house_projection *projection, double lo
     for (size_t i = 0; i < projection->marks.count; i++) {
         const tn_mark *m = &projection->marks.items[i];
         bool span = m->kind == TN_MARK_SPAN;
-        double radius = m->kind == TN_MARK_NORTH ? m->u1 - m->u0 : 0; /* its arrow may point anywhere */
-        double wide = tn_mark_width(m->text) * m->high / 2, tall = span ? 1.25 * m->high : m->high / 2,
+        double radius = m->kind == TN_MARK_NORTH ? m->u1 - m->u0 : 0;     /* its arrow may point anywhere */
+        bool sized = m->kind != TN_MARK_PANE && m->kind != TN_MARK_NORTH; /* whose `high` is something else */
+        double wide = sized ? tn_mark_width(m->text) * m->high / 2 : 0,
+               tall = !sized ? 0
+                      : span ? 1.25 * m->high
+                             : m->high / 2,
                u = span ? (m->u0 + m->u1) / 2 : m->u0, v = span ? (m->v0 + m->v1) / 2 : m->v0;
         stretch(low, high, u, v, m->upright ? tall : wide, m->upright ? wide : tall);
         stretch(low, high, m->u0, m->v0, radius, radius);

@@ -33,22 +33,28 @@ static void make_thin(int64_t thick, int64_t *from, int64_t *to)
     }
 }
 
+bool tn_house_filling(const tn_house *house, const tn_face *face, tn_solid *filling)
+{
+    tn_box hole;
+    if (!tn_house_hole(house, face, &hole) || !tn_house_is_filled(house, face))
+        return false;
+    bool leaf = tn_form_opening(house->form, face->kind)->flags & TN_PASSAGE;
+    int64_t thick = leaf ? TN_LEAF_NM : TN_PANE_NM;
+    if (face->at.x0 == face->at.x1)
+        make_thin(thick, &hole.x0, &hole.x1);
+    else
+        make_thin(thick, &hole.y0, &hole.y1);
+    *filling =
+        (tn_solid){.kind = leaf ? TN_SOLID_LEAF : TN_SOLID_PANE, .of = (uint32_t)(face - house->faces), .at = hole};
+    return true;
+}
+
 tn_status tn_house_leaves(const tn_house *house, tn_solids *solids, tn_error *error)
 {
     tn_status status = TN_OK;
-    for (uint32_t i = 0; status == TN_OK && i < house->face_count; i++) {
-        const tn_face *face = &house->faces[i];
-        tn_box hole;
-        if (!tn_house_hole(house, face, &hole) || !tn_house_is_filled(house, face))
-            continue;
-        bool leaf = tn_form_opening(house->form, face->kind)->flags & TN_PASSAGE;
-        int64_t thick = leaf ? TN_LEAF_NM : TN_PANE_NM;
-        if (face->at.x0 == face->at.x1)
-            make_thin(thick, &hole.x0, &hole.x1);
-        else
-            make_thin(thick, &hole.y0, &hole.y1);
-        status =
-            tn_solids_add(solids, (tn_solid){.kind = leaf ? TN_SOLID_LEAF : TN_SOLID_PANE, .of = i, .at = hole}, error);
-    }
+    tn_solid filling;
+    for (uint32_t i = 0; status == TN_OK && i < house->face_count; i++)
+        if (tn_house_filling(house, &house->faces[i], &filling))
+            status = tn_solids_add(solids, filling, error);
     return status;
 }

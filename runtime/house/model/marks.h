@@ -19,6 +19,7 @@ typedef enum tn_mark_layer {
     TN_MARK_TAG,     /* of doors and windows */
     TN_MARK_SECTION, /* where the house is cut */
     TN_MARK_FURNITURE,
+    TN_MARK_WINDOW,
     TN_MARK_ROOF, /* how it falls */
     TN_MARK_LAYERS
 } tn_mark_layer;
@@ -29,6 +30,7 @@ typedef enum tn_mark_kind {
     TN_MARK_CIRCLE, /* about (u0, v0), through (u1, v1) */
     TN_MARK_SPAN,   /* a dimension from (u0, v0) to (u1, v1), its text so high; or below the line; or empty; its strokes heavy */
     TN_MARK_LEAF,   /* of a door, hinged at (u0, v0) and open to (u1, v1); shut to its left, or to its right */
+    TN_MARK_PANE,   /* of a window, from (u0, v0) to (u1, v1), so thick (high) */
     TN_MARK_NORTH,  /* an arrow about (u0, v0), from above so many degrees (high) clockwise, and its letter: within (u1, v1) */
     TN_MARK_ITEM    /* a symbol, with its corner at (u0, v0) and the opposite one at (u1, v1) */
 } tn_mark_kind;
@@ -48,7 +50,7 @@ typedef struct tn_mark {
     tn_mark_kind kind;
     tn_mark_layer layer;
     double u0, v0, u1, v1;
-    double high; /* of what is written; of north: its angle; of the ground where it is cut: twice how deep the earth is shown */
+    double high; /* of what is written; of north: its angle; of a pane: how thick; of the ground where it is cut: twice how deep the earth is shown */
     bool upright, below, right, heavy;
     tn_marked_item item;
     char text[48];
@@ -100,6 +102,7 @@ void tn_marks_chain(tn_marks *marks, double *places, size_t count, double at, bo
                     const tn_mark_style *style);
 void tn_marks_line(tn_marks *marks, tn_mark_layer layer, double u0, double v0, double u1, double v1);
 void tn_marks_leaf(tn_marks *marks, double u0, double v0, double u1, double v1, bool right);
+void tn_marks_pane(tn_marks *marks, double u0, double v0, double u1, double v1, double thick);
 void tn_marks_text(tn_marks *marks, tn_mark_layer layer, double u, double v, double high, bool upright,
                    const char *text);
 

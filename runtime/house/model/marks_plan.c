@@ -33,6 +33,25 @@ static void put_door(tn_marks *marks, const tn_swing *door)
             put_leaf(marks, &door->leaves[k]);
 }
 
+/* Panes of windows that the plan cuts. */
+static void put_panes(const tn_house *house, uint32_t storey, tn_marks *marks)
+{
+    int64_t cut = tn_plan_level(house->form, storey);
+    for (size_t i = 0; i < house->face_count; i++) {
+        const tn_face *face = &house->faces[i];
+        tn_solid pane;
+        if (face->storey != storey || face->relation == TN_FACE_UNDER || !tn_house_filling(house, face, &pane) ||
+            pane.kind != TN_SOLID_PANE || pane.at.z0 >= cut || pane.at.z1 <= cut)
+            continue;
+        double x0 = (double)pane.at.x0, x1 = (double)pane.at.x1, y0 = (double)pane.at.y0, y1 = (double)pane.at.y1;
+        bool in_y = face->at.x0 == face->at.x1;
+        if (in_y)
+            tn_marks_pane(marks, (x0 + x1) / 2, y0, (x0 + x1) / 2, y1, x1 - x0);
+        else
+            tn_marks_pane(marks, x0, (y0 + y1) / 2, x1, (y0 + y1) / 2, y1 - y0);
+    }
+}
+
 static void put_void(tn_rectangle r, tn_marks *marks)
 {
     double x0 = (double)r.x0, x1 = (double)r.x1, y0 = (double)r.y0, y1 = (double)r.y1;
@@ -149,6 +168,7 @@ static tn_status put_symbols(const tn_planned *p, tn_marks *marks, tn_error *err
         }
     }
     status = tn_marks_flights(house, p->storey, p->style, marks, error);
+    put_panes(house, p->storey, marks);
     for (size_t i = 0; i < p->doors.count; i++)
         put_door(marks, &p->doors.items[i]);
     for (uint32_t i = 0; i < house->cell_count; i++)

@@ -74,6 +74,9 @@ bool tn_house_hole(const tn_house *house, const tn_face *face, tn_box *hole);
 /* Has a face an opening with a leaf or a pane? */
 bool tn_house_is_filled(const tn_house *house, const tn_face *face);
 
+/* The leaf or the pane in a face; false if there is none. */
+bool tn_house_filling(const tn_house *house, const tn_face *face, tn_solid *filling);
+
 /* Adds leaves and panes to the solids; `of` is their face. */
 tn_status tn_house_leaves(const tn_house *house, tn_solids *solids, tn_error *error);
 

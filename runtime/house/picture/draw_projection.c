@@ -193,6 +193,7 @@ static const mark_pen pens[TN_MARK_LAYERS] = {
     [TN_MARK_TAG] = {TN_LAYER_SYMBOL, TN_WEIGHT_THIN, 0, 0},
     [TN_MARK_SECTION] = {TN_LAYER_SYMBOL, TN_WEIGHT_CUT, 0, 0},
     [TN_MARK_FURNITURE] = {TN_LAYER_FURNITURE, TN_WEIGHT_THIN, 0, 0},
+    [TN_MARK_WINDOW] = {TN_LAYER_WINDOW, TN_WEIGHT_THIN, 0, 0},
     [TN_MARK_ROOF] = {TN_LAYER_SYMBOL, TN_WEIGHT_THIN, 0, 0},
 };
 
@@ -218,6 +219,33 @@ static void paint_leaf(const tn_drawing_frame *f, const tn_mark *m)
     snprintf(name, sizeof name, "DOOR-%.0f", length / 1e6);
     const tn_drawn_symbol leaf = {name, draw_leaf, &wide};
     tn_paint_symbol(f->paint, &leaf, place_u(f, m->u0), place_v(f, m->v0), angle, !m->right);
+}
+
+/* A pane along the x axis: wide, thick. */
+static void draw_pane(tn_paint *paint, const void *of)
+{
+    const double *size = of;
+    tn_paint_layer(paint, TN_LAYER_WINDOW);
+    tn_paint_weight(paint, TN_WEIGHT_THIN);
+    tn_paint_rectangle(paint, -size[0] / 2, -size[1] / 2, size[0], size[1]);
+    if (tn_paint_covers(paint)) {
+        tn_paint_colour(paint, 0.2, 0.35, 0.5);
+        tn_paint_fill_keep(paint);
+        tn_paint_colour(paint, 0, 0, 0);
+    }
+    tn_paint_stroke(paint);
+}
+
+/* A symbol by its width and thickness in millimetres. */
+static void paint_pane(const tn_drawing_frame *f, const tn_mark *m)
+{
+    char name[64];
+    double du = fabs(m->u1 - m->u0), dv = fabs(m->v1 - m->v0), wide = du + dv;
+    const double size[2] = {wide * f->scale, m->high * f->scale};
+    snprintf(name, sizeof name, "WINDOW-%.0fx%.0f", wide / 1e6, m->high / 1e6);
+    const tn_drawn_symbol pane = {name, draw_pane, size};
+    tn_paint_symbol(f->paint, &pane, place_u(f, (m->u0 + m->u1) / 2), place_v(f, (m->v0 + m->v1) / 2),
+                    dv > du ? M_PI / 2 : 0, false);
 }
 
 static void paint_span(const tn_drawing_frame *f, const tn_mark *m)
@@ -334,6 +362,9 @@ static void paint_shape(const tn_drawing_frame *f, const tn_mark *m)
         break;
     case TN_MARK_SPAN:
         paint_span(f, m);
+        break;
+    case TN_MARK_PANE:
+        paint_pane(f, m);
         break;
     case TN_MARK_NORTH:
         paint_north(f, m);

@@ -96,6 +96,44 @@ static void draw_sink(const tn_item_pen *p)
         line(p, 0.6, 0.28 + 0.16 * i, 0.92, 0.28 + 0.16 * i);
 }
 
+/* So far from the left end of a counter, in nanometres. */
+static double along(const tn_item_pen *p, double nanometres)
+{
+    return nanometres / p->item->wide;
+}
+
+#define BOWL_NM 4e8
+#define HOB_NM 5.6e8
+#define SINK_LEAST_NM 1.0e9 /* shorter counters have no sink */
+#define HOB_LEAST_NM 1.8e9  /* shorter ones no hob */
+
+/* With a sink and, as far as it is long enough, a hob, and a line where the wall's tiles stand on it. */
+static void draw_counter(const tn_item_pen *p)
+{
+    double wide = p->item->wide, sink = wide * 0.3, hob = wide * 0.75;
+    box(p, 0, 0, 1, 1);
+    line(p, 0, 0.05, 1, 0.05);
+    if (wide < SINK_LEAST_NM)
+        return;
+    sink = wide < HOB_LEAST_NM ? wide / 2 : sink;
+    basin(p, along(p, sink - BOWL_NM), 0.25, along(p, sink), 0.85);
+    circle(p, along(p, sink - BOWL_NM / 2), 0.15, 0.04);
+    for (int i = 0; i < 4; i++)
+        line(p, along(p, sink + 0.15 * BOWL_NM), 0.31 + 0.16 * i, along(p, sink + BOWL_NM), 0.31 + 0.16 * i);
+    for (int i = 0; wide >= HOB_LEAST_NM && i < 4; i++)
+        circle(p, along(p, hob + (i % 2 ? HOB_NM / 4 : -HOB_NM / 4)), i < 2 ? 0.32 : 0.74, 0.15);
+}
+
+/* Three streams of warm air in its drum. */
+static void draw_dryer(const tn_item_pen *p)
+{
+    box(p, 0, 0, 1, 1);
+    line(p, 0, 0.15, 1, 0.15);
+    circle(p, 0.5, 0.58, 0.3);
+    for (int i = -1; i <= 1; i++)
+        line(p, 0.5 + 0.12 * i, 0.44, 0.5 + 0.12 * i, 0.72);
+}
+
 static void draw_fridge(const tn_item_pen *p)
 {
     box(p, 0, 0, 1, 1);
@@ -210,6 +248,14 @@ static void draw_piano(const tn_item_pen *p)
     line(p, 0, 0.75, 1, 0.75);
 }
 
+/* Of three boards. */
+static void draw_bench(const tn_item_pen *p)
+{
+    box(p, 0, 0, 1, 1);
+    line(p, 0, 1 / 3.0, 1, 1 / 3.0);
+    line(p, 0, 2 / 3.0, 1, 2 / 3.0);
+}
+
 static void draw_shelf(const tn_item_pen *p)
 {
     box(p, 0, 0, 1, 1);
@@ -257,6 +303,8 @@ static const struct {
     [TN_SYMBOL_SOFA] = {draw_sofa, false},         [TN_SYMBOL_DESK] = {draw_desk, false},
     [TN_SYMBOL_WARDROBE] = {draw_wardrobe, false}, [TN_SYMBOL_PIANO] = {draw_piano, false},
     [TN_SYMBOL_STOVE] = {draw_stove, true},        [TN_SYMBOL_SHELF] = {draw_shelf, false},
+    [TN_SYMBOL_COUNTER] = {draw_counter, true},    [TN_SYMBOL_DRYER] = {draw_dryer, true},
+    [TN_SYMBOL_BENCH] = {draw_bench, false},
 };
 
 bool tn_symbol_is_fixture(tn_item_symbol symbol)
