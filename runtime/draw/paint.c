@@ -644,7 +644,9 @@ void tn_paint_symbol(tn_paint *paint, const tn_drawn_symbol *symbol, double x, d
 #define DIMENSION_BEYOND 0.6 /* how far that goes past the line of the dimension; without an offset to both sides */
 #define DIMENSION_STROKE 0.4 /* half of how far an oblique stroke reaches, across and up */
 #define DIMENSION_RAISED 0.4 /* from the line to the text's baseline */
-#define DIMENSION_BELOW 1.1
+#define DIMENSION_BELOW 1.55 /* clear of strokes */
+#define DIMENSION_LEADER 0.76
+#define DIMENSION_CAPITAL 0.36 /* half of one */
 
 static void trace_line(tn_paint *paint, double x0, double y0, double x1, double y1)
 {
@@ -682,17 +684,35 @@ static void trace_dimension(tn_paint *paint, const tn_dimension *d, const double
     paint->now.pen.width = thin;
 }
 
-/* To be read from below, or from the right. */
+/* Which way its text runs: to be read from below, or from the right. */
+static void run_of(const double ends[2][2], double run[2])
+{
+    double dx = ends[1][0] - ends[0][0], dy = ends[1][1] - ends[0][1], sign = dx < 0 || (dx == 0 && dy > 0) ? -1 : 1;
+    run[0] = sign * dx;
+    run[1] = sign * dy;
+}
+
+/* The middle of a text that is below the line. */
+static void place_below(const tn_paint *paint, const double ends[2][2], double at[2])
+{
+    double run[2], away = (DIMENSION_BELOW - DIMENSION_CAPITAL) * paint->now.size;
+    run_of(ends, run);
+    double length = hypot(run[0], run[1]);
+    place(paint, (ends[0][0] + ends[1][0]) / 2 - run[1] / length * away,
+          (ends[0][1] + ends[1][1]) / 2 + run[0] / length * away, &at[0], &at[1]);
+}
+
 static void write_dimension(tn_paint *paint, const tn_dimension *d, const double ends[2][2])
 {
-    double dx = ends[1][0] - ends[0][0], dy = ends[1][1] - ends[0][1];
-    if (dx < 0 || (dx == 0 && dy > 0)) {
-        dx = -dx;
-        dy = -dy;
-    }
+    double run[2];
+    run_of(ends, run);
     tn_paint_save(paint);
     tn_paint_translate(paint, (ends[0][0] + ends[1][0]) / 2, (ends[0][1] + ends[1][1]) / 2);
-    tn_paint_rotate(paint, tn_atan2(dy, dx));
+    tn_paint_rotate(paint, tn_atan2(run[1], run[0]));
+    if (d->below && d->text[0]) {
+        trace_line(paint, 0, 0, 0, DIMENSION_LEADER * paint->now.size);
+        tn_paint_stroke(paint);
+    }
     tn_paint_text(paint, 0, (d->below ? DIMENSION_BELOW : -DIMENSION_RAISED) * paint->now.size, TN_ALIGN_CENTRE,
                   d->text);
     tn_paint_restore(paint);
@@ -708,7 +728,8 @@ void tn_paint_dimension(tn_paint *paint, const tn_dimension *d)
     const double along[2] = {dx / length, dy / length}, aside[2] = {along[1], -along[0]},
                  ends[2][2] = {{d->from[0] + d->offset * aside[0], d->from[1] + d->offset * aside[1]},
                                {d->to[0] + d->offset * aside[0], d->to[1] + d->offset * aside[1]}};
-    tn_drawn_dimension drawn = {.text = d->text};
+    tn_drawn_dimension drawn = {.text = d->text, .moved = d->below && d->text[0]};
+    place_below(paint, ends, drawn.text_at);
     place(paint, d->from[0], d->from[1], &drawn.from[0], &drawn.from[1]);
     place(paint, d->to[0], d->to[1], &drawn.to[0], &drawn.to[1]);
     for (int i = 0; i < 2; i++)

@@ -83,7 +83,8 @@ typedef struct tn_drawn_symbol {
 void tn_paint_symbol(tn_paint *paint, const tn_drawn_symbol *symbol, double x, double y, double angle, bool mirrored);
 
 /* A dimension: the distance of two points along a line that is parallel to them, `offset` aside (to the left as one
- * goes from the first to the second; negative: to the right). text: above the line, or below it; or empty. */
+ * goes from the first to the second; negative: to the right). text: above the line, or below it
+ * and clear of its strokes, where a leader goes to it; or empty. */
 typedef struct tn_dimension {
     double from[2], to[2];
     double offset;

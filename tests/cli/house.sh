@@ -501,9 +501,9 @@ golden gallery_behind_full "tartan explain gallery.plan '$inn ; open' --full | g
 is 'houses with galleries, one by one' "$("$TARTAN" enumerate "$files/gallery.plan" --library inns | wc -l)" 14312
 # Doors hang and open where nothing stands; names stand where nothing is below them.
 leaves_and_names() {
-    tartan house "$1" "$2" --profile us --view plan:ground -o "$scratch/plan.dxf" && tr -d '\r' <"$scratch/plan.dxf" | awk '
+    tartan house "$1" "$2" --view plan:ground -o "$scratch/plan.dxf" && tr -d '\r' <"$scratch/plan.dxf" | awk '
         NR % 2 { code = $1; next }
-        code == 0 { if (kind == "INSERT" || layer == "A-AREA-IDEN") print kind, text, x, y, mirrored, turned; kind = $0; text = mirrored = turned = "" }
+        code == 0 { if (kind == "INSERT" || layer == "A-99----T-") print kind, text, x, y, mirrored, turned; kind = $0; text = mirrored = turned = "" }
         code == 8 { layer = $0 } code == 1 || code == 2 { text = $0 } code == 10 { x = $0 } code == 20 { y = $0 }
         code == 41 { mirrored = $0 } code == 50 { turned = $0 }'
 }

@@ -95,10 +95,13 @@ typedef struct tn_drawn_view {
     double smaller;
 } tn_drawn_view;
 
-/* A length that is given: its ends, and those of the line that shows it. */
+/* A length that is given: its ends, and those of the line that shows it. text_at: the middle of its text, if that is
+ * moved away from the line. */
 typedef struct tn_drawn_dimension {
     double from[2], to[2], line[2][2];
     const char *text;
+    double text_at[2];
+    bool moved;
 } tn_drawn_dimension;
 
 typedef struct tn_device tn_device;

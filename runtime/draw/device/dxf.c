@@ -558,6 +558,7 @@ static tn_status begin_dimension(tn_device *device, const tn_drawn_dimension *di
     map(&d->now, dimension->to[0], dimension->to[1], d->dimension_at.to);
     for (int i = 0; i < 2; i++)
         map(&d->now, dimension->line[i][0], dimension->line[i][1], d->dimension_at.line[i]);
+    map(&d->now, dimension->text_at[0], dimension->text_at[1], d->dimension_at.text_at);
     return begin_block(d, name, d->now.by);
 }
 
@@ -617,8 +618,11 @@ static tn_status end_dimension(tn_device *device)
     put_class(d, "AcDbDimension");
     tn_buffer_printf(d->now.entities, "2\n%s\n", d->content.blocks[d->dimension].name);
     put_point(d, 10, at->line[1][0], at->line[1][1]);
-    put_point(d, 11, (at->line[0][0] + at->line[1][0]) / 2, (at->line[0][1] + at->line[1][1]) / 2);
-    tn_buffer_printf(d->now.entities, "70\n32\n71\n8\n");
+    if (at->moved)
+        put_point(d, 11, at->text_at[0], at->text_at[1]);
+    else
+        put_point(d, 11, (at->line[0][0] + at->line[1][0]) / 2, (at->line[0][1] + at->line[1][1]) / 2);
+    tn_buffer_printf(d->now.entities, "70\n%d\n71\n%d\n", at->moved ? 160 : 32, at->moved ? 5 : 8);
     tn_dxf_put(d->now.entities, 42, length);
     if (!at->text[0])
         tn_buffer_printf(d->now.entities, "1\n \n"); /* a blank: nothing is written */

@@ -283,7 +283,7 @@ void tn_house_projection_extent(const tn_house_projection *projection, double lo
         bool sized = m->kind != TN_MARK_PANE && m->kind != TN_MARK_NORTH; /* whose `high` is something else */
         double wide = sized ? tn_mark_width(m->text) * m->high / 2 : 0,
                tall = !sized ? 0
-                      : span ? 1.25 * m->high
+                      : span ? (m->below ? 1.6 : 1.25) * m->high
                              : m->high / 2,
                u = span ? (m->u0 + m->u1) / 2 : m->u0, v = span ? (m->v0 + m->v1) / 2 : m->v0;
         stretch(low, high, u, v, m->upright ? tall : wide, m->upright ? wide : tall);
@@ -343,19 +343,19 @@ tn_status tn_house_projection_take(const tn_house *house, const tn_solids *solid
     *projection = (tn_house_projection){.aspect = *aspect, .camera = camera_of(aspect)};
     write_title(house, aspect, projection->title, sizeof projection->title);
     tn_status status = tn_blocks_of(house, solids, &blocks, error);
+    if (status == TN_OK && aspect->kind != TN_ASPECT_PLAN)
+        status = tn_house_part_floors(house, &blocks, error);
     if (status == TN_OK)
         status = cut(house, aspect, &blocks, &axis, &at, error);
     if (status == TN_OK && misses(house, aspect, &blocks))
         status = missed(house, aspect, projection, error);
-    if (status == TN_OK && axis < 0)
-        status = tn_house_part_floors(house, &blocks, error);
     if (status == TN_OK) {
         group_blocks(house, grouping, &blocks);
         status =
             tn_blocks_mesh(&blocks, TN_GROUP_COUNT * (1 + (grouping ? grouping->more : 0)), &projection->mesh, error);
     }
-    if (status == TN_OK && axis < 0)
-        tn_house_face_floors(house, grouping, &projection->mesh);
+    if (status == TN_OK && axis != 2)
+        tn_house_face_floors(house, grouping, axis, at, &projection->mesh);
     if (status == TN_OK)
         status =
             tn_house_lines(&projection->mesh, &projection->camera, axis >= 0, &(tn_line_weights){aspect, weight_of},

@@ -96,8 +96,9 @@ struct tn_blocks;
 /* Cuts floors across where an outside wall ends and their edge goes on without one, as below a porch. TN_MEMORY. */
 tn_status tn_house_part_floors(const tn_house *house, struct tn_blocks *blocks, tn_error *error);
 
-/* Puts the edges of such floors that outside walls stand on, or end below, into the groups of these walls. */
-void tn_house_face_floors(const tn_house *house, const tn_grouping *grouping, tn_mesh *mesh);
+/* Puts the edges of such floors that outside walls stand on, or end below, into the groups of these walls; not what lies
+ * in the plane of a cut across an axis (or -1). */
+void tn_house_face_floors(const tn_house *house, const tn_grouping *grouping, int axis, double at, tn_mesh *mesh);
 
 /* ---- cut_layers.c: adds the layers that the plane across an axis cuts */
 tn_status tn_cut_layers(const tn_house *house, const tn_solids *solids, int axis, double at,

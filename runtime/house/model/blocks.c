@@ -8,8 +8,8 @@
 /* Of a block's polygon that has been cut: along two axes and by two levels. */
 enum { POLYGON_MAX = TN_FACET_CORNERS + 4 };
 
-/* Where a level cuts a slope is rounded to such a part of a nanometre, so that it is the same place wherever it is worked
- * out from: from the top of a slab, or from the wall below that. */
+/* Where a level cuts a slope is rounded to such a part of a nanometre, so that it is the same place wherever it is
+ * worked out from: from the top of a slab, or from the wall below that. */
 #define LEVEL_PARTS 64.0
 
 /* A polygon that is cut. Pieces that share an edge, or a face, get the same corners where both are cut. */
@@ -144,14 +144,15 @@ static tn_status add_box(tn_blocks *blocks, const tn_solid *solid, tn_error *err
 {
     double x0 = (double)solid->at.x0, x1 = (double)solid->at.x1, y0 = (double)solid->at.y0, y1 = (double)solid->at.y1,
            low = (double)solid->at.z0, high = (double)solid->at.z1;
-    tn_house_block block = {.kind = solid->kind,
-                            .group = solid->kind,
-                            .of = solid->of,
-                            .item = solid->item,
-                            .count = 4,
-                            .corners = {{x0, y0, low, high}, {x1, y0, low, high}, {x1, y1, low, high}, {x0, y1, low, high}},
-                            .low = {x0, y0, low},
-                            .high = {x1, y1, high}};
+    tn_house_block block = {
+        .kind = solid->kind,
+        .group = solid->kind,
+        .of = solid->of,
+        .item = solid->item,
+        .count = 4,
+        .corners = {{x0, y0, low, high}, {x1, y0, low, high}, {x1, y1, low, high}, {x0, y1, low, high}},
+        .low = {x0, y0, low},
+        .high = {x1, y1, high}};
     return add_block(blocks, &block, error);
 }
 
@@ -162,8 +163,8 @@ typedef struct tn_prism_polygon {
     size_t count;
 } tn_prism_polygon;
 
-/* Where corners of prisms are, in x and in y, of those that touch one another, directly or by way of others. Roofs side by
- * side are in one plane; if all that slope are cut at the same places, rounding leaves no slivers between them, and
+/* Where corners of prisms are, in x and in y, of those that touch one another, directly or by way of others. Roofs side
+ * by side are in one plane; if all that slope are cut at the same places, rounding leaves no slivers between them, and
  * those that meet have whole faces in common. Others are left whole: each piece of an edge is rounded by itself. */
 typedef struct tn_breaks {
     uint32_t *cluster; /* [prisms]: the first of those that it belongs with */
@@ -275,8 +276,9 @@ static tn_prism_corner corner_at(const tn_prism_corner *a, const tn_prism_corner
     tn_fraction way = difference(place_of_exact(b, axis), place_of_exact(a, axis)),
                 over = difference(at, place_of_exact(a, axis)),
                 part = tn_fraction_new(over.top * way.bottom, over.bottom * way.top);
-    return (tn_prism_corner){axis == 0 ? at : on_the_way(a->x, b->x, part), axis == 1 ? at : on_the_way(a->y, b->y, part),
-                             on_the_way(a->low, b->low, part), on_the_way(a->high, b->high, part)};
+    return (tn_prism_corner){axis == 0 ? at : on_the_way(a->x, b->x, part),
+                             axis == 1 ? at : on_the_way(a->y, b->y, part), on_the_way(a->low, b->low, part),
+                             on_the_way(a->high, b->high, part)};
 }
 
 /* What of a polygon is beyond a plane across x or y that cuts it, or before it. */
@@ -406,7 +408,8 @@ tn_status tn_blocks_of(const tn_house *house, const tn_solids *solids, tn_blocks
         gather_breaks(solids, c, &breaks);
         for (size_t i = c; status == TN_OK && i < solids->prism_count; i++)
             if (breaks.cluster[i] == c)
-                status = add_prism(blocks, solids, &solids->prisms[i], (double)house->form->record->roof, &breaks, error);
+                status =
+                    add_prism(blocks, solids, &solids->prisms[i], (double)house->form->record->roof, &breaks, error);
     }
     tn_solids_clear(&leaves);
     free(breaks.cluster);
@@ -443,12 +446,13 @@ static tn_status add_upright_cut(tn_blocks *to, const tn_house_block *b, const t
     if (!ends[0] || ends[0] == ends[1])
         return TN_OK;
     double from = place_of(ends[0], 1 - axis), end = place_of(ends[1], 1 - axis);
-    return add_cut(to,
-                   (tn_cut_face){.kind = b->kind,
-                                 .item = b->item,
-                                 .of = b->of,
-                                 .at = {{from, ends[0]->low}, {end, ends[1]->low}, {end, ends[1]->high}, {from, ends[0]->high}}},
-                   error);
+    return add_cut(
+        to,
+        (tn_cut_face){.kind = b->kind,
+                      .item = b->item,
+                      .of = b->of,
+                      .at = {{from, ends[0]->low}, {end, ends[1]->low}, {end, ends[1]->high}, {from, ends[0]->high}}},
+        error);
 }
 
 static tn_status cut_upright(tn_blocks *to, const tn_house_block *b, int axis, double at, bool above, tn_error *error)
@@ -461,8 +465,7 @@ static tn_status cut_upright(tn_blocks *to, const tn_house_block *b, int axis, d
 }
 
 /* Where the top, or the bottom, of an edge crosses a level; false: nowhere between its ends. */
-static bool cross_level(const tn_block_corner *a, const tn_block_corner *b, bool top, double level,
-                        tn_block_corner *at)
+static bool cross_level(const tn_block_corner *a, const tn_block_corner *b, bool top, double level, tn_block_corner *at)
 {
     double from = (top ? a->high : a->low) - level, to = (top ? b->high : b->low) - level;
     if (!((from < 0 && to > 0) || (from > 0 && to < 0)))

@@ -91,12 +91,12 @@ tn_status tn_house_part_floors(const tn_house *house, tn_blocks *blocks, tn_erro
     return status;
 }
 
-void tn_house_face_floors(const tn_house *house, const tn_grouping *grouping, tn_mesh *mesh)
+void tn_house_face_floors(const tn_house *house, const tn_grouping *grouping, int axis, double at, tn_mesh *mesh)
 {
     for (size_t f = 0; f < mesh->face_count; f++) {
         double middle[3];
         uint32_t face = is_edge(mesh, f, middle) ? wall_of(house, middle) : TN_NO_FACE;
-        if (face == TN_NO_FACE)
+        if (face == TN_NO_FACE || (axis >= 0 && fabs(middle[axis] - at) < NEAR_NM))
             continue;
         const tn_house_block wall = {.kind = tn_face_wall(house, &house->faces[face]), .of = face};
         mesh->face_group[f] = TN_GROUP_WALL + TN_GROUP_COUNT * (grouping ? grouping->group(house, &wall) : 0);

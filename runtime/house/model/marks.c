@@ -38,13 +38,9 @@ void tn_marks_leaf(tn_marks *marks, double u0, double v0, double u1, double v1, 
 
 void tn_marks_pane(tn_marks *marks, double u0, double v0, double u1, double v1, double thick)
 {
-    add(marks, (tn_mark){.kind = TN_MARK_PANE,
-                         .layer = TN_MARK_WINDOW,
-                         .u0 = u0,
-                         .v0 = v0,
-                         .u1 = u1,
-                         .v1 = v1,
-                         .high = thick});
+    add(marks,
+        (tn_mark){
+            .kind = TN_MARK_PANE, .layer = TN_MARK_WINDOW, .u0 = u0, .v0 = v0, .u1 = u1, .v1 = v1, .high = thick});
 }
 
 void tn_marks_text(tn_marks *marks, tn_mark_layer layer, double u, double v, double high, bool upright,

@@ -33,7 +33,7 @@ typedef struct tn_naming {
     const tn_house *house;
     const tn_taken *taken;
     double lettering;
-    tn_rectangle *near; /* owned; has room for all that is taken */
+    tn_rectangle *near;            /* owned; has room for all that is taken */
     size_t near_count, item_count; /* first what stands there, then doors and tags */
     tn_rectangle cell;
 } tn_naming;

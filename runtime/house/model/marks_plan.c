@@ -181,9 +181,9 @@ static tn_status put_symbols(const tn_planned *p, tn_marks *marks, tn_error *err
 
 /* How far the first chain is from the walls, in the size of lettering: tags and marks of sections stand before it. */
 #define FIRST_CHAIN 5.5
-#define FIRST_CHAIN_COARSE 3.4
-#define NEXT_CHAIN 2.8
-#define SECTION 2.5 /* and its marks, which are 1.3 long: what is written on the first chain is beyond them */
+#define FIRST_CHAIN_COARSE 4.2
+#define NEXT_CHAIN 2.8 /* what is written below a chain is apart from what is above the next */
+#define SECTION 2.5    /* and its marks, which are 1.3 long: what is written on the first chain is beyond them */
 #define SECTION_COARSE 0.3
 
 /* The sides of a plan, as they are drawn: the front is below. */

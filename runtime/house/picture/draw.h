@@ -15,7 +15,7 @@ typedef struct tn_drawing_says {
 typedef struct tn_house_drawing {
     const tn_aspect *aspects; /* in the order in which they stand on the sheet */
     size_t count;
-    const char *title;        /* NULL: none */
+    const char *title; /* NULL: none */
     tn_drawing_says says;
     const char *const *notes; /* lines at the foot */
     size_t note_count;
@@ -46,8 +46,8 @@ typedef struct tn_house_gallery {
 
 /* What of a house is lit up on its plans, and how: red, for a part that is at fault; rose, for what belongs to one;
  * green, for what is as it should be; grey, for what would stand there; pale blue, for the ground that a person comes
- * to, and a blue square, for the person; a dark blue line, for a walk. at: in a storey; a wall is without width or depth;
- * a line of a walk goes from (x0, y0) to (x1, y1). */
+ * to, and a blue square, for the person; a dark blue line, for a walk. at: in a storey; a wall is without width or
+ * depth; a line of a walk goes from (x0, y0) to (x1, y1). */
 typedef enum tn_lit_tone {
     TN_LIT_FAULT,
     TN_LIT_BESIDE,

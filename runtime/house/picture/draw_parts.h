@@ -17,10 +17,12 @@ typedef struct tn_house_drawn {
     const tn_house_form *form;  /* lent */
     double (*layer_colours)[3]; /* [layers of the form] where they are cut; owned, NULL if there are none */
     tn_house_projection projection;
-    tn_hatch *hatches;      /* [cuts of the projection]; owned */
-    tn_view *view;          /* what is filled with colour: in elevations and in space, otherwise NULL */
-    double low[2], high[2]; /* with its marks, nanometres */
-    double x, y;            /* of its lower left corner, points */
+    tn_hatch *hatches;       /* [cuts of the projection]; owned */
+    double *layer_least;     /* [cuts] how thick the thinnest of its layers is; 0: it has none; owned */
+    tn_hatch *layer_hatches; /* [layers of the form]; owned */
+    tn_view *view;           /* what is filled with colour: in elevations and in space, otherwise NULL */
+    double low[2], high[2];  /* with its marks, nanometres */
+    double x, y;             /* of its lower left corner, points */
 } tn_house_drawn;
 
 /* The title block of a sheet. All is borrowed. kinds, measures: what is drawn, and what measures it has. points: a
@@ -67,6 +69,13 @@ tn_status tn_house_layer_colours(const tn_house *house, double (**made)[3], tn_e
  * TN_MEMORY. */
 tn_status tn_house_hatches(const tn_house *house, const tn_house_projection *projection, tn_hatch **made,
                            tn_error *error);
+
+/* How thick the thinnest layer of each cut is. The caller frees *made. TN_MEMORY. */
+tn_status tn_house_cuts_layers(const tn_house *house, const tn_house_projection *projection, double **made,
+                               tn_error *error);
+
+/* The hatches of a form's layers: by their names, or by their materials. The caller frees *made. TN_MEMORY. */
+tn_status tn_house_layer_hatches(const tn_house *house, tn_hatch **made, tn_error *error);
 
 /* The share of light that comes from all around: more where surfaces have the colours of materials, as bricks and
  * slates in the shade are to be told apart. */

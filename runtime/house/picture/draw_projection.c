@@ -25,7 +25,16 @@ static double place_v(const tn_drawing_frame *f, double v)
 
 /* ---- what was cut */
 
-/* Panes and leaves are filled; of the rest, whatever is hatched so, or (hatch < 0) all. */
+#define LAYER_POINTS 0.6 /* thinner layers are not drawn, nor those beside them */
+
+/* least: how thick the thinnest layer is. */
+static bool is_drawn(const tn_drawing_frame *f, double least)
+{
+    return least * f->scale >= LAYER_POINTS;
+}
+
+/* Panes and leaves are filled; of the rest, whatever is hatched so but for what is drawn in layers, or (hatch < 0) all.
+ */
 static bool trace_cuts(const tn_drawing_frame *f, const tn_house_drawn *drawn, bool panes, int hatch)
 {
     const tn_house_projection *p = &drawn->projection;
@@ -34,7 +43,7 @@ static bool trace_cuts(const tn_drawing_frame *f, const tn_house_drawn *drawn, b
     for (size_t i = 0; i < p->cut_count; i++) {
         uint32_t group = tn_solid_groups[p->cuts[i].kind];
         if ((group == TN_GROUP_PANE || group == TN_GROUP_LEAF) != panes ||
-            (hatch >= 0 && drawn->hatches[i] != (tn_hatch)hatch))
+            (hatch >= 0 && (drawn->hatches[i] != (tn_hatch)hatch || is_drawn(f, drawn->layer_least[i]))))
             continue;
         any = true;
         tn_paint_new_sub_path(f->paint);
@@ -71,13 +80,6 @@ static void fill_cuts(const tn_drawing_frame *f, const tn_house_drawn *drawn)
 
 /* ---- layers of what was cut */
 
-#define LAYER_POINTS 0.6 /* thinner ones are not drawn, nor those beside them */
-
-static bool is_drawn(const tn_drawing_frame *f, const tn_cut_layer *layer)
-{
-    return layer->least * f->scale >= LAYER_POINTS;
-}
-
 static void trace_layer(const tn_drawing_frame *f, const tn_cut_layer *layer)
 {
     tn_paint_new_sub_path(f->paint);
@@ -92,35 +94,97 @@ static void trace_line(const tn_drawing_frame *f, const tn_drawn_line *line)
     tn_paint_line_to(f->paint, place_u(f, line->at[1][0]), place_v(f, line->at[1][1]));
 }
 
-/* Light, in the colours of their materials; the thickest of each part is hatched. */
+#define BATT_LEAST 3.4 /* points: insulation that is drawn thinner is hatched */
+#define BATT_STEP 0.5  /* from one side to the other, in its thickness */
+
+static bool is_batt(const tn_drawing_frame *f, const tn_house_drawn *drawn, const tn_cut_layer *layer)
+{
+    double thick = (double)tn_form_layer(f->form, layer->layer)->thick * f->scale;
+    return drawn->layer_hatches[layer->layer] == TN_HATCH_INSULATION && thick >= BATT_LEAST;
+}
+
+/* A zigzag between the long sides of a layer. */
+static void trace_batt(const tn_drawing_frame *f, const tn_cut_layer *layer)
+{
+    double side[2];
+    for (int k = 0; k < 2; k++)
+        side[k] = hypot(layer->at[k + 1][0] - layer->at[k][0], layer->at[k + 1][1] - layer->at[k][1]);
+    int first = side[0] >= side[1] ? 0 : 1; /* the corner at which a long side begins */
+    double thick = fmin(side[0], side[1]), length = fmax(side[0], side[1]);
+    int steps = thick > 0 ? (int)fmin(length / (thick * BATT_STEP) + 0.5, 10000) : 0;
+    const double *a = layer->at[first], *b = layer->at[first + 1], *c = layer->at[(first + 2) % 4],
+                 *d = layer->at[(first + 3) % 4];
+    for (int i = 0; i <= steps && steps > 0; i++) {
+        const double *from = i % 2 ? d : a, *to = i % 2 ? c : b;
+        double share = (double)i / steps, u = from[0] + share * (to[0] - from[0]),
+               v = from[1] + share * (to[1] - from[1]);
+        if (i == 0)
+            tn_paint_move_to(f->paint, place_u(f, u), place_v(f, v));
+        else
+            tn_paint_line_to(f->paint, place_u(f, u), place_v(f, v));
+    }
+}
+
+/* Insulation, as the zigzag of a batt. */
+static void paint_batts(const tn_drawing_frame *f, const tn_house_drawn *drawn)
+{
+    const tn_house_projection *p = &drawn->projection;
+    tn_paint_new_path(f->paint);
+    for (size_t i = 0; i < p->layer_count; i++)
+        if (is_drawn(f, p->layers[i].least) && is_batt(f, drawn, &p->layers[i]))
+            trace_batt(f, &p->layers[i]);
+    tn_paint_layer(f->paint, TN_LAYER_HATCH);
+    tn_paint_weight(f->paint, TN_WEIGHT_HATCH);
+    tn_paint_colour(f->paint, 0.2, 0.2, 0.2);
+    tn_paint_stroke(f->paint);
+}
+
+/* Of each part the thickest is hatched, and insulation. */
+static void hatch_layers(const tn_drawing_frame *f, const tn_house_drawn *drawn, tn_hatch hatch)
+{
+    const tn_house_projection *p = &drawn->projection;
+    tn_paint_new_path(f->paint);
+    for (size_t i = 0; i < p->layer_count; i++) {
+        const tn_cut_layer *layer = &p->layers[i];
+        bool shows = layer->main || hatch == TN_HATCH_INSULATION;
+        if (shows && drawn->layer_hatches[layer->layer] == hatch && is_drawn(f, layer->least) &&
+            !is_batt(f, drawn, layer))
+            trace_layer(f, layer);
+    }
+    hatch_path(f, hatch);
+}
+
+/* Light, in the colours of their materials. */
 static void fill_layers(const tn_drawing_frame *f, const tn_house_drawn *drawn)
 {
     const tn_house_projection *p = &drawn->projection;
-    size_t shown = 0;
     for (size_t i = 0; i < p->layer_count; i++) {
         const double *colour = drawn->layer_colours[p->layers[i].layer];
-        if (!is_drawn(f, &p->layers[i]))
+        if (!is_drawn(f, p->layers[i].least))
             continue;
         tn_paint_new_path(f->paint);
         trace_layer(f, &p->layers[i]);
         tn_paint_colour(f->paint, colour[0], colour[1], colour[2]);
         tn_paint_fill(f->paint);
-        shown++;
     }
-    if (shown == 0)
+}
+
+static void paint_layers(const tn_drawing_frame *f, const tn_house_drawn *drawn)
+{
+    if (drawn->projection.layer_count == 0)
         return;
-    tn_paint_new_path(f->paint);
-    for (size_t i = 0; i < p->layer_count; i++)
-        if (is_drawn(f, &p->layers[i]) && p->layers[i].main)
-            trace_layer(f, &p->layers[i]);
-    hatch_path(f, TN_HATCH_DIAGONAL);
+    if (tn_paint_covers(f->paint))
+        fill_layers(f, drawn);
+    for (int hatch = 0; hatch < TN_HATCH_COUNT; hatch++)
+        hatch_layers(f, drawn, (tn_hatch)hatch);
+    paint_batts(f, drawn);
 }
 
 static void paint_joints(const tn_drawing_frame *f, const tn_house_projection *p)
 {
     tn_paint_new_path(f->paint);
     for (size_t i = 0; i < p->joint_count; i++)
-        if (is_drawn(f, tn_joint_layer(p, &p->joints[i])))
+        if (is_drawn(f, tn_joint_layer(p, &p->joints[i])->least))
             trace_line(f, &p->joints[i]);
     tn_paint_layer(f->paint, TN_LAYER_HATCH);
     tn_paint_colour(f->paint, 0.1, 0.1, 0.1);
@@ -410,8 +474,7 @@ void tn_draw_projection(const tn_canvas *canvas, const tn_house_drawn *drawn, do
     if (drawn->view && tn_paint_covers(paint))
         tn_view_paint(canvas, drawn->view, &place);
     fill_cuts(&f, drawn);
-    if (p->layer_count > 0 && tn_paint_covers(paint))
-        fill_layers(&f, drawn);
+    paint_layers(&f, drawn);
     paint_joints(&f, p);
     paint_lines(&f, p);
     for (size_t i = 0; i < p->marks.count; i++)

@@ -10,7 +10,7 @@
 #include "runtime/house/picture/draw_tables.h"
 
 #define MARGIN 28.0
-#define GAP 18.0
+#define GAP 14.0
 #define CAPTION 22.0
 #define HEADING 24.0
 #define NOTE_LEADING 13.0
@@ -56,6 +56,10 @@ tn_status tn_house_view_take(const tn_solids *solids, const tn_aspect *aspect, c
         status = tn_house_layer_colours(house, &drawn->layer_colours, error);
     if (status == TN_OK)
         status = tn_house_hatches(house, &drawn->projection, &drawn->hatches, error);
+    if (status == TN_OK)
+        status = tn_house_layer_hatches(house, &drawn->layer_hatches, error);
+    if (status == TN_OK)
+        status = tn_house_cuts_layers(house, &drawn->projection, &drawn->layer_least, error);
     if (status == TN_OK) {
         tn_house_projection *p = &drawn->projection;
         tn_house_colour_groups(&p->mesh);
@@ -78,6 +82,8 @@ void tn_house_drawn_clear(tn_house_drawn *drawn)
     tn_view_free(drawn->view);
     free(drawn->layer_colours);
     free(drawn->hatches);
+    free(drawn->layer_hatches);
+    free(drawn->layer_least);
     tn_house_projection_clear(&drawn->projection);
 }
 
@@ -157,9 +163,13 @@ static void write_caption(const sheet *s, size_t i, char caption[CAPTION_MAX])
         section += is_section(&s->drawing->aspects[k]);
     if (is_section(aspect) && section < s->style.section_count) {
         const tn_section_place *place = &s->sections[section];
+        int used = snprintf(caption, CAPTION_MAX, "%c-%c  ", place->letter, place->letter);
         tn_mark_length(&s->style, fabs((double)place->at), at);
-        snprintf(caption, CAPTION_MAX, "%c-%c  section %c = %s%s", place->letter, place->letter,
-                 place->across_x ? 'x' : 'y', place->at < 0 ? "-" : "", at);
+        if (s->lengths == tn_house_length_style(s->house))
+            snprintf(caption + used, CAPTION_MAX - (size_t)used, "%s", title);
+        else
+            snprintf(caption + used, CAPTION_MAX - (size_t)used, "section %c = %s%s", place->across_x ? 'x' : 'y',
+                     place->at < 0 ? "-" : "", at);
     } else if (aspect->kind == TN_ASPECT_ELEVATION && s->style.north) {
         snprintf(caption, CAPTION_MAX, "%s, %s", title, compass_of(aspect->side, *s->style.north));
     } else if (s->smaller > 1 && may_be_smaller(aspect)) {
