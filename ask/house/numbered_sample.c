@@ -229,14 +229,14 @@ static void say_likely(const tn_tried_houses *t)
 
 static tn_status sample_from(tn_tried_houses *t, tn_house_sample *s, size_t wanted, uint64_t seed, tn_error *error)
 {
-    size_t most = t->most < SIZE_MAX ? (size_t)t->most : SIZE_MAX;
+    size_t most = t->most < TN_DRAWN_HOUSES_MAX ? (size_t)t->most : TN_DRAWN_HOUSES_MAX;
     tn_tray *trays = tn_numbered_tray_room(t->n, error);
     tn_status status = trays ? tn_numbered_all(&t->without, error) : TN_MEMORY;
     if (status == TN_OK) {
         tn_houses_count(t->without.all, TN_ALL_LENGTHS, s->before);
         most = mpz_cmp_ui(s->before, most) < 0 ? (size_t)mpz_get_ui(s->before) : most;
-        status =
-            tn_watch_room(t->n->form.module->watch, most * 2 * sizeof *s->ranks, "drawing houses to be tried", error);
+        status = tn_watch_room(t->n->form.module->watch, (uint64_t)most * 2 * sizeof *s->ranks,
+                               "drawing houses to be tried", error);
     }
     if (status == TN_OK)
         status = sample_draw(s, seed, s->before, most, error);

@@ -8,6 +8,7 @@
 #include "runtime/house/count/houses.h"
 
 #define TN_DRAWN_HOUSES_DEFAULT 5000u /* that are drawn, which takes some milliseconds each */
+#define TN_DRAWN_HOUSES_MAX 50000000u /* their ranks are all in memory */
 #define TN_LISTED_HOUSES_DEFAULT 100000u
 
 /* `without` borrows `other`: neither may be moved. */

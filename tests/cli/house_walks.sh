@@ -117,6 +117,7 @@ golden tried_few "tartan sample $scratch/walked.plan 9 --library asked --max-hou
 golden tried_listed "tartan enumerate $scratch/walked.plan --library asked --max-houses 5"
 golden tried_table "tartan sample $scratch/walked.plan 3 --library asked -o $scratch/x.sqlite"
 form 'require exits(cell(any)) >= 2, walk(cell(second), to outside) >= 0m' >walked.plan
+is 'no more are drawn than there are' "$("$TARTAN" sample tried.plan 7 --library asked --seed 60 --max-houses 1152921504606846976 2>/dev/null)" "$(tail -7 drawn)"
 golden tried_none "tartan sample $scratch/walked.plan 9 --library asked --max-houses 12"
 golden tried_nowhere "tartan enumerate $scratch/walked.plan --library asked"
 
