@@ -62,7 +62,7 @@ TARTAN_API const char *tartan_house_library_unit(tartan_house_library *library, 
 
 typedef struct tartan_house tartan_house;
 
-/* Reads a house line (`plan ; section ; functions ; faces ; tiles`; size bytes, no newline): any house of the library's
+/* Reads a house line (`plan ; options ; functions ; faces ; tiles`; size bytes, no newline): any house of the library's
  * form, also one that the library does not keep. If values are left out (`_`, or a part that is `-` or missing), it is
  * the first house of the library that has what is typed. What is none is TARTAN_INVALID, with error.column. */
 TARTAN_API tartan_status tartan_house_read(tartan_house_library *library, const char *line, size_t size,

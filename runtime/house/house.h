@@ -174,7 +174,7 @@ int64_t tn_face_thickness(const tn_house *house, const tn_face *face);
 
 /* ---- house_line.c */
 
-/* Reads a house line: `plan ; section ; functions ; faces ; tiles`. Parts at the end that leave no choice may be left
+/* Reads a house line: `plan ; options ; functions ; faces ; tiles`. Parts at the end that leave no choice may be left
  * out. E1611 with its columns where it is no house of the form; errors of the plan as tn_plan_parse_line has them. A
  * line that begins with a brace is a JSON object, and its member "house" the house line: other members are not read. */
 tn_status tn_house_read(const tn_house_form *form, const char *line, size_t size, size_t max_trays, tn_house *house,

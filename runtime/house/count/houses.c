@@ -154,8 +154,9 @@ static tn_status count_kind(tn_houses *h, tn_houses_kind *kind, tn_error *error)
 enum { SCOUTED_A_STATE = 2, OTHERS_A_SCOUTED = 3 };
 
 /* If most steps lead to nodes that are there already, these limits are far away, and so is the end: with more steps than
- * so many for each state that is allowed, it takes too long until it is known whether there are too many. */
-enum { STEPS_A_STATE = 12 };
+ * so many for each state that is allowed, it takes too long until it is known whether there are too many. Few steps are
+ * always made. */
+enum { STEPS_A_STATE = 12, FEW_STEPS = 1000000 };
 
 typedef struct tn_scout {
     const tn_houses *houses;
@@ -169,6 +170,7 @@ typedef struct tn_scout {
 static tn_status check_steps(const tn_scout *s, tn_error *error)
 {
     uint64_t most = (uint64_t)STEPS_A_STATE * s->houses->max_states;
+    most = most < FEW_STEPS ? FEW_STEPS : most;
     if (s->steps <= most)
         return TN_OK;
     tn_fail(error, TN_LIMIT, E_FRONTIER, "counting these houses takes more than %" PRIu64 " steps from tray to tray",

@@ -737,10 +737,10 @@ tn_status tn_frontier_prices_check(const tn_frontier *frontier, const bool *tray
 {
     tn_roofs roofs = roofs_of(frontier);
     if (roofs.hip && are_roofs_priced(frontier->form))
-        return refuse(frontier, "a section has a hip, whose ends are cut off as far as the whole row says",
+        return refuse(frontier, "the options have a hip roof, whose ends are cut off as far as the whole row says",
                       "keep houses without: `prune option(...)`", error);
     if (frontier->prices.across && roofs.eaves > 0)
-        return refuse(frontier, "a section has eaves, and a roof that goes `across`",
+        return refuse(frontier, "the options have eaves, and a roof that goes `across`",
                       "keep houses that have only one of both: `prune option(...)`", error);
     tn_status status = check_widths(frontier, &roofs, trays, error);
     return status == TN_OK ? check_openings(frontier, error) : status;

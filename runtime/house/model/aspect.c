@@ -223,7 +223,7 @@ static tn_status missed(const tn_house *house, const tn_aspect *aspect, const tn
     if (aspect->kind == TN_ASPECT_PLAN) {
         status = tn_fail(error, TN_INVALID, E_USAGE, "the drawing `%s` would be empty: the house has no room there",
                          projection->title);
-        tn_error_help(error, "the section says how many storeys its zones have");
+        tn_error_help(error, "options say how many storeys zones have");
         return status;
     }
     status = tn_fail(error, TN_INVALID, E_USAGE, "the %s cuts nothing of the house", projection->title);

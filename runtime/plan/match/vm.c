@@ -289,7 +289,7 @@ static tn_status run_house(tn_plan_vm *vm, vm_frame *frame, const tn_instruction
 {
     if (!vm->ask) {
         tn_fail(error, TN_INVALID, E_NOT_A_HOUSE, "this asks for the cells and rooms of a house, and there is a plan");
-        tn_error_help(error, "give a house line: `plan ; section ; functions ; faces ; tiles`");
+        tn_error_help(error, "give a house line: `plan ; options ; functions ; faces ; tiles`");
         return TN_INVALID;
     }
     tn_status status = add_relation(vm, &vm->stack, error);
