@@ -15,7 +15,7 @@ refused() {
     grep -qF "$help" said || fail "$*: $(cat said)"
     [ ! -e box.toy ] || fail "$* writes it"
 }
-refused 'the output of `tartan draw` cannot be written as box.toy' 'end its name in .svg, .png, .pdf or .dxf' draw terrace --sample 2 -o box.toy
+refused 'the output of `tartan draw` cannot be written as box.toy' 'end its name in .svg, .png or .pdf; of plans also in .dxf' draw terrace --sample 2 -o box.toy
 refused 'the output of `tartan mesh` cannot be written as box.toy' 'end its name in .obj' mesh table -o box.toy
 refused 'the output of `tartan report` cannot be written as box.TOY' 'end its name in .html' report terrace -o box.TOY
 refused 'the output of `tartan sample` cannot be written as box.toy' 'text has another ending, or none' sample terrace 3 -o box.toy

@@ -9,14 +9,15 @@
 
 #include "ask/house/compared.h"
 #include "ask/plan/diff.h"
+#include "runtime/house/rule/stages.h"
 #include "tests/support/same_or_memory.h"
 #include "tests/support/test_house.h"
 
 #define SCHEMA(LENGTHS) "schema hut { width role length = " LENGTHS " zone body role band = room(10') }\n"
 #define FORM(FACES)                                                                                                    \
     "form huts of hut {\n"                                                                                             \
-    "  storey ground 9' wall 6\" partition 4\" floor 10\" roof 8\"\n"                                                   \
-    "  option body roof = gable(9:12) | vault(3')\n"                                                                  \
+    "  storey ground 9' wall 6\" partition 4\" floor 10\" roof 8\"\n"                                                  \
+    "  option body roof = gable(9:12) | vault(3')\n"                                                                   \
     "  function bed at cell(body)\n"                                                                                   \
     "  opening window wide 3' high 4' sill 2'8\"\n"                                                                    \
     "  opening door wide 2'8\" high 6'8\" clear 2' passage\n"                                                          \
@@ -46,6 +47,7 @@ static const struct {
 typedef struct compared_pair {
     test_house houses[2];
     tn_library *plans[2];
+    bool *walking[2]; /* as tn_numbered_open finds them */
 } compared_pair;
 
 static tn_status compare(void *context, tn_buffer *out, tn_error *error)
@@ -61,7 +63,8 @@ static tn_status compare(void *context, tn_buffer *out, tn_error *error)
     tn_status status = TN_OK;
     for (int i = 0; i < 2; i++) {
         test_house *one = &pair->houses[i];
-        const tn_numbered opened = {.session = &session, .schema = one->schema, .form = one->form};
+        const tn_numbered opened = {
+            .session = &session, .schema = one->schema, .form = one->form, .walking = pair->walking[i]};
         tn_numbered_other(&opened, one->module, one->all, pair->plans[i], &c.sides[i].n);
     }
     if (status == TN_OK)
@@ -92,10 +95,12 @@ static void every_allocation_may_fail(void **state)
             tn_error error = {0};
             test_house_compile(one, k ? pairs[i].new : pairs[i].old);
             test_ok(tn_library_new(one->schema, one->all->plans, &options, &pair.plans[k], &error), &error);
+            test_ok(tn_functions_walking(one->module, &pair.walking[k], &error), &error);
         }
         same_or_memory(compare, &pair, 40);
         for (int k = 0; k < 2; k++) {
             tn_library_free(pair.plans[k]);
+            free(pair.walking[k]);
             test_house_clear(&pair.houses[k]);
         }
     }
