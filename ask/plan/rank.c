@@ -117,7 +117,10 @@ static tn_status answer_plan(tn_session *session, const tn_ready_library *ready,
         return tn_session_fail(session, &error);
     tn_ranked_plan *ranked = answer->value;
     ranked->library = tn_text(session->opened->module, ready->record->name);
-    if (!tn_library_rank(ready->library, plan->trays, plan->length, ranked->rank))
+    bool has = false;
+    if (tn_library_counted_rank(ready->library, plan->trays, plan->length, &has, ranked->rank, &error) != TN_OK)
+        return tn_session_fail(session, &error);
+    if (!has)
         return say_why(session, ready, plan, tn_asked_length(&request->subject));
     if (request->ways && find_ways(ready, plan, ranked, &error) != TN_OK)
         return tn_session_fail(session, &error);
@@ -130,7 +133,7 @@ static tn_status rank_plan(tn_session *session, const tn_rank_request *request, 
     tn_plan plan = {0};
     size_t longest = tn_asked_length(&request->subject);
     tn_status status =
-        tn_searched_instead(session, tn_session_library(session, &request->subject, &ready),
+        tn_searched_instead(session, tn_session_counted(session, &request->subject, &ready),
                             "a rank counts the plans before a plan. `explain` says without it whether the "
                             "library keeps a plan, and `enumerate` finds the first plans by search, with "
                             "their ranks");

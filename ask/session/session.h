@@ -101,7 +101,8 @@ tn_status tn_session_library(tn_session *session, const tn_library_asked *asked,
 /* The same for who can search its plans, perhaps all that are generated: see tn_library_ready_or_searched. */
 tn_status tn_session_searched(tn_session *session, const tn_library_asked *asked, bool all_generated,
                               const tn_ready_library **ready, tn_error *limit);
-/* The same for counting its plans: it may leave a clause out of its automaton (tn_library_apart). */
+/* The same for counting its plans, all or those before one: it may leave a clause out of its automaton
+ * (tn_library_apart). */
 tn_status tn_session_counted(tn_session *session, const tn_library_asked *asked, const tn_ready_library **ready);
 /* The same without its pruning: its plans are all that it generates. */
 tn_status tn_session_generated(tn_session *session, const tn_library_asked *asked, const tn_ready_library **ready);

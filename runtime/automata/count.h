@@ -150,4 +150,18 @@ tn_status tn_count_both(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation op
 tn_status tn_count_both_lengths(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation operation, const uint32_t *sizes,
                                 uint32_t max, const char *what, tn_bounds *bounds, mpz_t *counts, tn_error *error);
 
+/* A word of symbols, and the symbols that come before those. */
+typedef struct tn_count_word {
+    uint32_t length;
+    const uint32_t *letters; /* [length]: that its symbols are of */
+    /* += how many symbols of each letter come before that of the word in a place. */
+    void (*lower)(void *context, uint32_t place, uint64_t *symbols);
+    void *context;
+} tn_count_word;
+
+/* As tn_count_both_lengths, of the words that are as long as a word and come before it, symbol by symbol. */
+tn_status tn_count_both_before(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation operation, const uint32_t *sizes,
+                               const tn_count_word *word, const char *what, tn_bounds *bounds, mpz_t count,
+                               tn_error *error);
+
 #endif

@@ -4,7 +4,7 @@
  * Where the first has no cycle and holds words of the lengths asked about only, its states are taken once each, in
  * their order, in which edges only lead forward: the numbers are of words of whatever length. Otherwise, and to tell
  * lengths apart, they are taken layer by layer (walk.h), as if the row were a polynomial whose powers are the states of
- * the second. */
+ * the second. The words before one word are counted so, too. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -43,14 +43,15 @@ void tn_sweep_measure(const tn_sparse *a, uint32_t *shortest, uint32_t *longest)
     }
 }
 
-/* Gathers the steps of a state. What leads to one place by one column mostly lies side by side. */
-static uint32_t gather(const tn_agreement *of, uint32_t state, tn_count_step *steps)
+/* Gathers the steps of a state; weights: symbols of each column of the product. What leads to one place by one column
+ * mostly lies side by side. */
+static uint32_t gather(const tn_agreement *of, const uint64_t *weights, uint32_t state, tn_count_step *steps)
 {
     const tn_sparse *a = of->a;
     uint32_t count = 0;
     for (size_t e = a->first[state]; e < a->first[state + 1]; e++)
         for (size_t i = of->splits.first[a->label[e]]; i < of->splits.first[a->label[e] + 1]; i++) {
-            tn_count_step next = {a->target[e], of->splits.splits[i].other, of->weights[of->splits.splits[i].label]};
+            tn_count_step next = {a->target[e], of->splits.splits[i].other, weights[of->splits.splits[i].label]};
             uint32_t same = count;
             for (uint32_t k = count; k > 0 && count - k < TN_BOTH_NEAR && same == count; k--)
                 if (steps[k - 1].target == next.target && steps[k - 1].column == next.column)
@@ -92,7 +93,7 @@ static uint64_t take_state(const tn_count_sweep *sweep, uint32_t p, mpz_t count)
         if (!sweep->reached[pair])
             continue;
         if (work == 0)
-            steps = gather(sweep->of, p, sweep->steps);
+            steps = gather(sweep->of, sweep->of->weights, p, sweep->steps);
         move_on(sweep, p, q, steps);
         work += steps + 1;
         if (!of->a->accept[p] || sweep->away[q] != 0)
@@ -205,20 +206,26 @@ static tn_status row_add(void *context, void *sum, const void *element, const tn
     return TN_OK;
 }
 
-/* Counts the words that end here. */
-static tn_status row_settle(void *context, uint32_t layer, uint32_t state, void *element, tn_error *error)
+/* count += the words of a row in which b answers as wanted. */
+static void add_row(const tn_row_count *r, const tn_sweep_row *row, mpz_t count)
 {
-    const tn_row_count *r = context;
-    const tn_sweep_row *row = element;
     size_t limbs = r->of->limbs;
-    (void)error;
-    for (uint32_t q = row->begin; r->of->a->accept[state] && q < row->end; q++) {
+    for (uint32_t q = row->begin; q < row->end; q++) {
         mpz_t value;
         if (r->away[q] != 0)
             continue;
         mpz_roinit_n(value, row->numbers + q * limbs, (mp_size_t)limbs);
-        mpz_add(r->counts[layer], r->counts[layer], value);
+        mpz_add(count, count, value);
     }
+}
+
+/* Counts the words that end here. */
+static tn_status row_settle(void *context, uint32_t layer, uint32_t state, void *element, tn_error *error)
+{
+    const tn_row_count *r = context;
+    (void)error;
+    if (r->of->a->accept[state])
+        add_row(r, element, r->counts[layer]);
     return TN_OK;
 }
 
@@ -226,7 +233,7 @@ static tn_status row_edges(void *context, uint32_t layer, uint32_t state, tn_wal
                            tn_error *error)
 {
     tn_row_count *r = context;
-    uint32_t count = gather(r->of, state, r->steps);
+    uint32_t count = gather(r->of, r->of->weights, state, r->steps);
     tn_status status = tn_bounds_check(r->bounds, r->what, 1, 1, count + UINT64_C(1), error);
     (void)layer;
     for (uint32_t i = 0; status == TN_OK && i < count; i++)
@@ -245,7 +252,8 @@ static tn_status fail_rows(const char *what, tn_error *error)
     return TN_LIMIT;
 }
 
-static tn_status count_rows(tn_row_count *r, tn_error *error)
+static tn_status count_rows(tn_row_count *r, const tn_walk_graph *graph, const tn_walk_algebra *algebra,
+                            tn_error *error)
 {
     const tn_agreement *of = r->of;
     tn_layers walk = {0};
@@ -259,8 +267,23 @@ static tn_status count_rows(tn_row_count *r, tn_error *error)
     if (status == TN_OK)
         status = tn_walk_begin(&walk, of->max, false, error);
     if (status == TN_OK && of->a->states > 0)
-        status = tn_walk_forward(&walk, &row_graph, r, &row_algebra, r, r->row, error);
-    tn_walk_clear(&walk, &row_algebra, NULL);
+        status = tn_walk_forward(&walk, graph, r, algebra, r, r->row, error);
+    tn_walk_clear(&walk, algebra, NULL);
+    return status;
+}
+
+/* Makes the agreement, which `r` points to, and counts. */
+static tn_status count_agreement(tn_row_count *r, tn_agreement *of, const uint32_t *sizes, const tn_walk_graph *graph,
+                                 const tn_walk_algebra *algebra, tn_error *error)
+{
+    tn_status status = tn_agreement_make(of, sizes, error);
+    uint64_t limbs = status == TN_OK ? tn_count_limbs(of->weights, of->splits.columns, of->max) : 0;
+    of->limbs = tn_as_size(limbs);
+    if (status == TN_OK)
+        status = count_rows(r, graph, algebra, error);
+    tn_agreement_clear(of);
+    free(r->steps);
+    free(r->away);
     return status;
 }
 
@@ -271,13 +294,96 @@ tn_status tn_count_both_lengths(const tn_sparse *a, const tn_dfa *b, tn_dfa_oper
     tn_row_count r = {.of = &of, .counts = counts, .what = what, .bounds = bounds};
     for (uint32_t length = 0; length <= max; length++)
         mpz_set_ui(counts[length], 0);
-    tn_status status = tn_agreement_make(&of, sizes, error);
-    uint64_t limbs = status == TN_OK ? tn_count_limbs(of.weights, of.splits.columns, max) : 0;
-    of.limbs = tn_as_size(limbs);
-    if (status == TN_OK)
-        status = count_rows(&r, error);
-    tn_agreement_clear(&of);
-    free(r.steps);
-    free(r.away);
+    return count_agreement(&r, &of, sizes, &row_graph, &row_algebra, error);
+}
+
+/* ---- before a word
+ *
+ * State 0 of this walk is that of the words that begin as the word does; state s + 1 is state s of the first automaton,
+ * in words that are before it already. */
+
+#define AS_THE_WORD 0u
+
+typedef struct tn_before_count {
+    tn_row_count rows; /* first: the algebra of rows sees it */
+    const tn_count_word *word;
+    mpz_ptr count;
+    uint32_t state;    /* of the first automaton, where the word has led so far */
+    uint64_t *lower;   /* [letters]: symbols before that of the word in its next place, */
+    uint64_t *weights; /* [letters]: by column of the product, of which there are no more */
+} tn_before_count;
+
+/* The state after one more letter; TN_NO_STATE: no word goes on so. */
+static uint32_t follow(const tn_sparse *a, uint32_t state, uint32_t letter)
+{
+    for (size_t e = a->first[state]; e < a->first[state + 1]; e++)
+        if (a->label[e] == a->column[letter])
+            return a->target[e];
+    return TN_NO_STATE;
+}
+
+/* Where words lead that leave the word in this place, by a lower symbol. */
+static uint32_t gather_lower(tn_before_count *b, uint32_t place)
+{
+    const tn_agreement *of = b->rows.of;
+    memset(b->lower, 0, of->a->letters * sizeof *b->lower);
+    memset(b->weights, 0, of->splits.columns * sizeof *b->weights);
+    b->word->lower(b->word->context, place, b->lower);
+    for (uint32_t letter = 0; letter < of->a->letters; letter++)
+        b->weights[of->splits.column[letter]] += b->lower[letter];
+    return gather(of, b->weights, b->state, b->rows.steps);
+}
+
+/* Goes on as the word does. */
+static tn_status edge_as_the_word(tn_before_count *b, uint32_t place, tn_walk_seen *seen, void *walk, tn_error *error)
+{
+    const tn_agreement *of = b->rows.of;
+    uint32_t letter = b->word->letters[place];
+    const tn_count_step step = {AS_THE_WORD, of->b->column[letter], 1};
+    b->state = follow(of->a, b->state, letter);
+    return b->state == TN_NO_STATE ? TN_OK : seen(walk, AS_THE_WORD, &step, error);
+}
+
+static tn_status before_edges(void *context, uint32_t layer, uint32_t state, tn_walk_seen *seen, void *walk,
+                              tn_error *error)
+{
+    tn_before_count *b = context;
+    const tn_row_count *r = &b->rows;
+    uint32_t count = state == AS_THE_WORD ? gather_lower(b, layer) : gather(r->of, r->of->weights, state - 1, r->steps);
+    tn_status status = tn_bounds_check(r->bounds, r->what, 1, 1, count + UINT64_C(1), error);
+    for (uint32_t i = 0; status == TN_OK && i < count; i++)
+        status = seen(walk, r->steps[i].target + 1, &r->steps[i], error);
+    return status == TN_OK && state == AS_THE_WORD ? edge_as_the_word(b, layer, seen, walk, error) : status;
+}
+
+/* Counts the words that are as long as the word. */
+static tn_status before_settle(void *context, uint32_t layer, uint32_t state, void *element, tn_error *error)
+{
+    const tn_before_count *b = context;
+    (void)error;
+    if (layer == b->word->length && state != AS_THE_WORD && b->rows.of->a->accept[state - 1])
+        add_row(&b->rows, element, b->count);
+    return TN_OK;
+}
+
+static const tn_walk_graph before_graph = {tn_walk_starts_first, before_edges};
+TN_WALK_ALGEBRA(before_algebra, row_zero, NULL, row_one, row_add, before_settle);
+
+tn_status tn_count_both_before(const tn_sparse *a, const tn_dfa *b, tn_dfa_operation operation, const uint32_t *sizes,
+                               const tn_count_word *word, const char *what, tn_bounds *bounds, mpz_t count,
+                               tn_error *error)
+{
+    tn_agreement of = {.a = a, .b = b, .agree = operation == TN_DFA_AND, .max = word->length};
+    tn_before_count before = {.rows = {.of = &of, .what = what, .bounds = bounds},
+                              .word = word,
+                              .count = count,
+                              .lower = malloc(((size_t)a->letters + 1) * sizeof *before.lower),
+                              .weights = malloc(((size_t)a->letters + 1) * sizeof *before.weights)};
+    mpz_set_ui(count, 0);
+    tn_status status = before.lower && before.weights
+                           ? count_agreement(&before.rows, &of, sizes, &before_graph, &before_algebra, error)
+                           : tn_fail_memory(error);
+    free(before.lower);
+    free(before.weights);
     return status;
 }

@@ -117,6 +117,13 @@ as '{"plan": "6m end | ... | end"}' '6m end | ... | end'
 as "{\"plan\": \"$plan\", \"of_all\": true}" "$plan" --of-all
 as "{\"plan\": \"$plan\", \"max_states\": 3}" "$plan" --max-states 3
 asked
+file=tests/cli/files/apart.plan
+apart=$("$TARTAN" unrank "$file" 1000000000)
+as "{\"plan\": \"$apart\", \"max_states\": 5000}" "$apart" --max-states 5000
+as "{\"plan\": \"$apart\", \"max_states\": 5000, \"ways\": true}" "$apart" --max-states 5000 --ways
+as "{\"plan\": \"${apart#* | }\", \"max_states\": 5000}" "${apart#* | }" --max-states 5000
+as "{\"plan\": \"$apart\", \"max_states\": 300}" "$apart" --max-states 300
+asked
 file=tests/cli/files/cabins.plan
 house=$("$TARTAN" unrank "$file" '#10:77')
 as "{\"house\": \"$house\"}" "$house"

@@ -18,13 +18,23 @@ done
 golden report_limits "sed -n '/id=.limits/,/<.ul>/p' $scratch/report/index.html"
 golden count_demanding 'tartan count blow-up.plan --library demanding --max-states 30'
 golden count_demanding_json 'tartan count blow-up.plan --library demanding --max-states 30 --json 2>/dev/null | sed -n "/requirements/,\$p"'
-# Plans are counted although their automaton passes a limit; nothing else is asked of them.
+# Plans are counted although their automaton passes a limit, also those before a plan; nothing else is asked of them.
 golden count_apart 'tartan count apart.plan --max-states 5000'
 golden count_apart_json 'tartan count apart.plan --max-states 5000 --json --no-effects'
+golden rank_apart 'tartan rank apart.plan "3m store - | 2m stair - | 2m stair - | 4m store lit | 4m store lit" --max-states 5000'
+golden rank_apart_no 'tartan rank apart.plan "4m store - | 4m stair - | 4m store -" --max-states 5000'
+golden unrank_apart 'tartan unrank apart.plan 3 --max-states 5000'
 golden sample_apart 'tartan sample apart.plan 2 --max-states 5000'
 for states in 20000 8000 5000; do
     "$TARTAN" count "$files/apart.plan" --no-effects --max-states $states | sed '/^states\|^counted apart/d' >"$scratch/apart-$states" || fail "$states states: exit $?"
     cmp "$scratch/apart-20000" "$scratch/apart-$states" || fail "$states states count other plans"
+done
+for rank in 0 12345 1000000000 2029456331; do
+    held=$("$TARTAN" unrank "$files/apart.plan" $rank) || fail "no plan of rank $rank"
+    for limit in '5000 --threads 1' '5000 --threads 4' '8000 --threads 2'; do
+        # shellcheck disable=SC2086
+        [ "$("$TARTAN" rank "$files/apart.plan" "$held" --max-states $limit)" = $rank ] || fail "$rank is not the rank of $held with --max-states $limit"
+    done
 done
 golden check 'tartan check blow-up.plan'
 golden check_small 'tartan check blow-up.plan --max-states 3'

@@ -234,7 +234,20 @@ static bool accepts(const tn_library *library, const tn_dfa *dfa, const tn_tray 
     return dfa->accept[state];
 }
 
+/* Asks clause by clause, for a library that leaves one of them out of its automaton. */
+static bool all_keep(const tn_library *library, const tn_tray *trays, size_t length)
+{
+    for (size_t k = 0; k < library->applied_count; k++) {
+        size_t i = library->applied[k];
+        if (accepts(library, library->clauses[i], trays, length) == tn_library_prunes(library, i))
+            return false;
+    }
+    return true;
+}
+
 bool tn_library_has(const tn_library *library, const tn_tray *trays, size_t length)
 {
-    return length >= library->min && length <= library->max && accepts(library, library->kept, trays, length);
+    if (length < library->min || length > library->max)
+        return false;
+    return library->kept ? accepts(library, library->kept, trays, length) : all_keep(library, trays, length);
 }

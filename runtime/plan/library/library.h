@@ -24,8 +24,8 @@ typedef struct tn_library_options {
     uint32_t max_states; /* of any intermediate automaton; 0: TN_STATES_DEFAULT for
                                  each clause, 1,000,000 for the clauses together */
     bool all_generated;  /* leave pruning out: the plans are all that are generated */
-    bool only_counted;   /* plans are only counted: a library whose clauses together pass a limit may then leave one
-                                 of them out of its automaton (tn_library_apart) */
+    bool only_counted;   /* plans are only counted, also those before a plan: a library whose clauses together pass a
+                                 limit may then leave one of them out of its automaton (tn_library_apart) */
     bool override_trays; /* take the lengths below instead of the library's own */
     uint32_t trays_min, trays_max;
     uint32_t max_length;       /* the largest trays_max that is accepted; 0: 4,096 (E0805 past it) */
@@ -54,8 +54,8 @@ uint32_t tn_library_states(const tn_library *library);
 bool tn_library_within(const tn_library *library);
 
 /* The clause that its automaton leaves out, since with it that passes a limit; SIZE_MAX: none. If there is one, the
- * library has its lengths, and the counts of tn_library_kept, tn_library_generated and tn_library_effect. Nothing else
- * may be asked. Only if the options said that this is enough. */
+ * library has its lengths, the counts of tn_library_kept, tn_library_generated and tn_library_effect, tn_library_has
+ * and tn_library_counted_rank. Nothing else may be asked. Only if the options said that this is enough. */
 size_t tn_library_apart(const tn_library *library);
 uint32_t tn_library_min(const tn_library *library);
 uint32_t tn_library_max(const tn_library *library);
@@ -100,6 +100,11 @@ bool tn_library_has(const tn_library *library, const tn_tray *trays, size_t leng
 
 /* The plan's rank. false where it is not in the library. */
 bool tn_library_rank(const tn_library *library, const tn_tray *trays, size_t length, mpz_t rank);
+
+/* The same of any library, also of one that leaves a clause out of its automaton: the plans before the plan are then
+ * counted by both, side by side, which takes about as long as counting all plans. *has: is it in the library? */
+tn_status tn_library_counted_rank(const tn_library *library, const tn_tray *trays, size_t length, bool *has, mpz_t rank,
+                                  tn_error *error);
 
 /* The plan of a rank: fills trays (room for tn_library_max) and its length. false where rank >= the number kept. */
 bool tn_library_unrank(const tn_library *library, const mpz_t rank, tn_tray *trays, uint32_t *length);

@@ -195,6 +195,78 @@ bool tn_library_rank(const tn_library *library, const tn_tray *trays, size_t len
     return true;
 }
 
+/* ---- the rank of a plan of a library that leaves a clause out */
+
+typedef struct apart_plan {
+    const tn_classes *classes;
+    const tn_tray *trays;
+} apart_plan;
+
+/* Where trays are not listed: the classes of those before a tray. */
+typedef struct lower_trays {
+    uint64_t left; /* still to pass */
+    uint64_t *classes;
+} lower_trays;
+
+static bool pass_classes(void *context, const tn_label_count *counts, size_t count)
+{
+    lower_trays *lower = context;
+    uint64_t trays = 0;
+    for (size_t i = 0; i < count; i++)
+        trays += counts[i].count;
+    if (trays > lower->left)
+        return false;
+    lower->left -= trays;
+    for (size_t i = 0; i < count; i++)
+        lower->classes[counts[i].label] += counts[i].count;
+    return true;
+}
+
+static void add_lower_trays(void *context, uint32_t place, uint64_t *classes)
+{
+    const apart_plan *plan = context;
+    tn_tray tray = plan->trays[place];
+    if (!plan->classes->of_tray) {
+        lower_trays lower = {tray, classes};
+        tn_labelling_find(tn_kinds_of(&plan->classes->kinds), pass_classes, &lower);
+        return;
+    }
+    for (tn_tray t = 0; t < tray; t++)
+        classes[plan->classes->of_tray[t]]++;
+}
+
+static tn_status rank_apart(const tn_library *library, const tn_tray *trays, uint32_t length, mpz_t rank,
+                            tn_error *error)
+{
+    uint32_t *letters = malloc(((size_t)length + 1) * sizeof *letters);
+    if (!letters)
+        return tn_fail_memory(error);
+    for (uint32_t i = 0; i < length; i++)
+        letters[i] = tn_class_of(library->classes, trays[i]);
+    apart_plan plan = {library->classes, trays};
+    const tn_count_word word = {length, letters, add_lower_trays, &plan};
+    tn_bounds bounds = tn_library_bounds(library);
+    tn_status status = tn_count_both_before(library->live, library->clauses[library->apart],
+                                            tn_library_keeping(library, library->apart), library->classes->size, &word,
+                                            "library", &bounds, rank, error);
+    mpz_add(rank, rank, library->before[length]);
+    free(letters);
+    return status;
+}
+
+tn_status tn_library_counted_rank(const tn_library *library, const tn_tray *trays, size_t length, bool *has, mpz_t rank,
+                                  tn_error *error)
+{
+    if (library->apart == SIZE_MAX) {
+        *has = tn_library_rank(library, trays, length, rank);
+        return TN_OK;
+    }
+    *has = tn_library_has(library, trays, length);
+    return *has ? rank_apart(library, trays, (uint32_t)length, rank, error) : TN_OK;
+}
+
+/* ---- the plan of a rank */
+
 /* As tn_plans_before, nearly, and divided like the nearly row. */
 static double nearly_before(const tn_library *library, const double *nearly, const uint32_t *next, tn_tray tray)
 {

@@ -168,11 +168,24 @@ static tn_status open_library_within(void *context, uint64_t *result, tn_error *
     return open_and_use(context, 1, result, error);
 }
 
-/* A library that may have few states, for counting its plans. */
+/* A library that may have few states, for counting its plans and those before one. */
 typedef struct few_states {
     const test_library *made;
     uint32_t states;
 } few_states;
+
+/* The rank of the last plan. */
+static tn_status rank_last(const few_states *few, const tn_library *library, mpz_t rank, tn_error *error)
+{
+    tn_tray trays[8];
+    uint32_t length;
+    bool has;
+    tn_library_kept(few->made->library, TN_ALL_LENGTHS, rank);
+    mpz_sub_ui(rank, rank, 1);
+    if (!tn_library_unrank(few->made->library, rank, trays, &length))
+        return TN_OK;
+    return tn_library_counted_rank(library, trays, length, &has, rank, error);
+}
 
 static tn_status count_few(void *context, uint64_t *result, tn_error *error)
 {
@@ -187,6 +200,9 @@ static tn_status count_few(void *context, uint64_t *result, tn_error *error)
         tn_library_kept(library, TN_ALL_LENGTHS, only);
         add(result, only);
         status = tn_library_effect(library, (uint32_t)tn_library_apart(library), out, only, &states, error);
+        add(result, only);
+        if (status == TN_OK)
+            status = rank_last(few, library, only, error);
         add(result, only);
         *result |= 1;
     }

@@ -284,6 +284,34 @@ static void both_ways_of_building_agree(void **state)
     assert_true(within > 10);
 }
 
+/* A library that leaves a clause out of its automaton has the same plans as the whole one, with the same ranks; the
+ * plans are drawn, from any trays and from those of the library. */
+static void check_ranks_apart(const test_library *whole, const tn_library *apart, uint64_t seed)
+{
+    test_random random = {.seed = seed};
+    tn_tray trays[8];
+    mpz_t kept, x, y;
+    mpz_inits(kept, x, y, NULL);
+    tn_library_kept(whole->library, TN_ALL_LENGTHS, kept);
+    for (uint32_t i = 0; i < 40; i++) {
+        uint32_t length = (uint32_t)test_random_below(&random, tn_library_max(apart) + 2);
+        for (uint32_t k = 0; k < length; k++)
+            trays[k] = (tn_tray)test_random_below(&random, whole->schema->tray_count);
+        if (i % 2 == 0 && mpz_sgn(kept) > 0) {
+            mpz_set_ui(x, (unsigned long)test_random_below(&random, (uint32_t)mpz_get_ui(kept)));
+            assert_true(tn_library_unrank(whole->library, x, trays, &length));
+        }
+        bool has = false;
+        tn_error error;
+        bool there = tn_library_rank(whole->library, trays, length, x);
+        assert_int_equal(tn_library_has(apart, trays, length), there);
+        test_ok(tn_library_counted_rank(apart, trays, length, &has, y, &error), &error);
+        assert_int_equal(has, there);
+        assert_true(!there || mpz_cmp(x, y) == 0);
+    }
+    mpz_clears(kept, x, y, NULL);
+}
+
 /* A library that leaves a clause out of its automaton has the same counts as the whole one. */
 static void check_apart(const test_library *whole, const tn_library *apart)
 {
@@ -326,6 +354,7 @@ static void a_clause_is_counted_apart(void **state)
                 bool prunes = test_library_prunes(&made, (uint32_t)tn_library_apart(library));
                 assert_true(tn_library_states(library) <= states + 1);
                 check_apart(&made, library);
+                check_ranks_apart(&made, library, seed);
                 pruned += prunes;
                 required += !prunes;
             }

@@ -18,7 +18,7 @@
 #include "runtime/plan/measure/pareto.h"
 #include "tests/support/test_rule.h"
 
-enum { ROUNDS = 60, FIELDS = 4, LONGEST = 3, SOME = 200 };
+enum { ROUNDS = 60, FIELDS = 4, LONGEST = 3, LONG = 7, SOME = 200 };
 
 /* ---- random files */
 
@@ -264,6 +264,50 @@ static void same_plans(const opened *a, const opened *b, test_random *random)
     mpz_clears(from, to, rank, found, NULL);
 }
 
+/* Compares the ranks of plans that are drawn in two libraries, one of which leaves a clause out of its automaton; how
+ * many of them had one. */
+static uint32_t same_ranks(const tn_library *whole, const tn_library *apart, test_random *random)
+{
+    uint32_t ranks = 0;
+    mpz_t rank, found;
+    tn_error error;
+    mpz_inits(rank, found, NULL);
+    for (uint32_t k = 0; k < SOME; k++) {
+        tn_tray trays[LONG];
+        bool has;
+        size_t length = test_random_below(random, LONG + 1);
+        for (size_t i = 0; i < length; i++)
+            trays[i] = test_random_below(random, tn_library_schema(whole)->tray_count);
+        bool there = tn_library_rank(whole, trays, length, rank);
+        test_ok(tn_library_counted_rank(apart, trays, length, &has, found, &error), &error);
+        assert_int_equal(has, there);
+        assert_true(!there || mpz_cmp(rank, found) == 0);
+        ranks += there;
+    }
+    mpz_clears(rank, found, NULL);
+    return ranks;
+}
+
+/* The same of libraries of longer plans that may have few states. */
+static uint32_t same_ranks_apart(const opened *a, const opened *b, test_random *random)
+{
+    uint32_t ranks = 0;
+    tn_library_options options = {.override_trays = true, .trays_max = LONG, .only_counted = true, .threads = 1};
+    tn_library *whole = NULL;
+    tn_error error;
+    test_ok(tn_library_new(a->schema, 0, &options, &whole, &error), &error);
+    options.max_eager = 1;
+    for (options.max_states = 4; options.max_states < 100; options.max_states += 1 + options.max_states / 8) {
+        tn_library *few = NULL;
+        tn_status status = tn_library_new(b->schema, 0, &options, &few, &error);
+        if (status == TN_OK && tn_library_apart(few) != SIZE_MAX)
+            ranks += same_ranks(whole, few, random);
+        tn_library_free(few);
+    }
+    tn_library_free(whole);
+    return ranks;
+}
+
 static void same_measures(const opened *a, const opened *b)
 {
     tn_distribution one, other;
@@ -415,7 +459,7 @@ static void check_hash(const opened *a, const opened *b)
 
 static void test_both_ways(void **state)
 {
-    uint32_t made = 0, legal = 0;
+    uint32_t made = 0, legal = 0, ranks = 0;
     (void)state;
     for (uint64_t seed = 1; seed <= ROUNDS; seed++) {
         writing w = {.random = {.seed = seed}};
@@ -427,6 +471,7 @@ static void test_both_ways(void **state)
             same_trays(a.schema, b.schema);
             same_counts(&a, &b);
             same_plans(&a, &b, &w.random);
+            ranks += same_ranks_apart(&a, &b, &w.random);
             same_measures(&a, &b);
             same_best(&a, &b, seed % 2);
             same_front(&a, &b);
@@ -443,6 +488,7 @@ static void test_both_ways(void **state)
     }
     assert_true(made > ROUNDS / 2); /* some files forbid every tray, and some rules match no tray */
     assert_true(legal > ROUNDS / 4);
+    assert_true(ranks > 1000);
 }
 
 int main(void)
