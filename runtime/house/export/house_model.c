@@ -150,8 +150,9 @@ static bool is_material(const tn_house_form *form, const char *name)
  * apart. NULL: there was no memory. */
 static char *material_name(const tn_house_form *form, uint32_t group, bool glass)
 {
-    const char *name = glass ? "glass" : tn_solid_kind_text((tn_solid_kind)group), *more = "";
+    const char *name, *more;
     if (group < TN_SOLID_COUNT) {
+        name = glass ? "glass" : tn_solid_kind_text((tn_solid_kind)group);
         more = is_material(form, name) ? "-plain" : "";
     } else {
         const tn_material_record *material =
