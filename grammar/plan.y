@@ -78,7 +78,7 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %token OPTION "`option`" VOID "`void`" NO "`no`" FUNCTION "`function`" OUTDOOR "`outdoor`" AT "`at`" CELL "`cell`"
 %token OPENING "`opening`" WIDE "`wide`" HIGH "`high`" SILL "`sill`" CLEAR "`clear`" PASSAGE "`passage`"
 %token WAY "`way`" HEADROOM "`headroom`" GUARD "`guard`"
-%token BEAM "`beam`" SPAN "`span`"
+%token BEAM "`beam`" SPAN "`span`" CLASSIFICATION "`classification`"
 %token FLIGHT "`flight`" RISE "`rise`" GOING "`going`" TURN "`turn`" WINDERS "`winders`"
 %token GLAZED "`glazed`" LEAFLESS "`leafless`" NEAR "`near`" SLIDING "`sliding`" MATERIAL "`material`" PRICE "`price`" PER "`per`"
 %token FACE "`face`" BESIDE "`beside`" ALONG "`along`" ACROSS "`across`" UNDER "`under`" OUTSIDE "`outside`"
@@ -109,8 +109,8 @@ static void tn_plan_error(const tn_span *span, tn_parse *parse, void *scanner, c
 %type <tile_part> stretch_word drawn
 %type <symbol_line> line_end
 %type <box_side> side_word
-%type <node> form_clause shape argument opening_part tile_part symbol_line reach layer option_alternative option_item
-%type <list> form_clauses layers shapes arguments opening_parts tile_parts symbol_lines kinds or_names reaches option_items option_alternatives
+%type <node> form_clause shape argument opening_part tile_part symbol_line reach layer class option_alternative option_item
+%type <list> form_clauses layers classes shapes arguments opening_parts tile_parts symbol_lines kinds or_names reaches option_items option_alternatives
 %type <word> size outside_side side number going turn winders option
 %type <expr> material_where
 %type <expr> walk_end cells cell_ors cell_and cell_ands cell_not options option_ors option_and option_ands option_not
@@ -814,6 +814,7 @@ form_clause
     | allow_word names                          { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_ALLOW, .list = $2}); }
     | material NAME STRING price FOR names material_where
                                                 { $4.name = $2; $4.doc = $3; $4.list = $6; $4.first = $7; $$ = tn_ast_form_clause_new(parse, @$, $4); }
+    | classification STRING FOR classes         { $$ = tn_ast_form_clause_new(parse, @$, (tn_ast_form_clause){.part = TN_PART_CLASSIFICATION, .doc = $2, .parts = $4}); }
     ;
 
 storey: STOREY                                  { yyerrok; };
@@ -831,6 +832,7 @@ guard: GUARD                                    { yyerrok; };
 face: FACE                                      { yyerrok; };
 tile: TILE                                      { yyerrok; };
 material: MATERIAL                              { yyerrok; };
+classification: CLASSIFICATION                  { yyerrok; };
 
 going
     : %empty                                    { $$ = NULL; } /* a spiral needs none */
@@ -879,6 +881,15 @@ layers
 
 layer
     : NAME size                                 { $$ = tn_ast_layer_new(parse, @$, $1, $2); }
+    ;
+
+classes
+    : class                                     { $$ = tn_ast_one($1); }
+    | classes COMMA class                       { $$ = tn_ast_append($1, $3); }
+    ;
+
+class
+    : NAME STRING doc                           { $$ = tn_ast_class_new(parse, @$, $1, $2, $3); }
     ;
 
 relation

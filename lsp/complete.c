@@ -793,6 +793,10 @@ static void complete_form(lsp_cursor *c)
         offer_parts(c, TN_SYMBOL_OPENING, KIND_VALUE);
         offer_parts(c, TN_SYMBOL_LAYER, KIND_VALUE);
         offer_words(c, TN_AT(MATERIAL) | TN_AT(OPTIONS));
+    } else if (cursor_is(c, c->clause, "classification")) {
+        offer_parts(c, TN_SYMBOL_OPENING, KIND_VALUE);
+        offer_parts(c, TN_SYMBOL_FUNCTION, KIND_FUNCTION);
+        offer_words(c, TN_AT(CLASSIFICATION));
     } else if (cursor_is(c, c->clause, "allow")) {
         complete_codes(c);
     } else if (cursor_is(c, c->clause, "opening")) {

@@ -164,6 +164,12 @@ static void use_layers(tn_index *index, const tn_symbol *form, const tn_ast_form
     }
 }
 
+static void use_classes(tn_index *index, const tn_symbol *form, const tn_ast_form_clause *clause)
+{
+    for (TN_EACH(const tn_ast_class, class, clause->parts))
+        index_occur(index, class->name->node.span, index_part(form, class->name->text));
+}
+
 static void index_use_form(tn_index *index, const tn_symbol *form, const tn_ast_form *ast)
 {
     if (!form)
@@ -181,6 +187,8 @@ static void index_use_form(tn_index *index, const tn_symbol *form, const tn_ast_
             use_tile(index, form, clause);
         else if (clause->part >= TN_PART_WALL && clause->part <= TN_PART_ROOF)
             use_layers(index, form, clause);
+        else if (clause->part == TN_PART_CLASSIFICATION)
+            use_classes(index, form, clause);
     }
 }
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Reads a house's files with programs of its own, and holds them to each other: house_files.py FOLDER [READER] [--title TEXT] (FOLDER as
+"""Reads a house's files with programs of its own, and holds them to each other: house_files.py FOLDER [READER] [--title TEXT] [--form FILE] (FOLDER as
 `tartan house -o FOLDER/` writes it). READER is ifc_read.cc, made: it has to find the same products with the same volumes in the IFC. TEXT is
-what the house is called.
+what the house is called, FILE the one that its form is in: for the codes of classifications.
 
 The IFC is held to the rules of ifc_file.py. Volumes and numbers of parts are those of the JSON, and so are names, letter by letter; walls meet
 where their faces do, and take up what the JSON has as posts there; spaces are bounded by what is around them; every door hangs and swings as the
@@ -19,7 +19,7 @@ from collections import Counter, defaultdict
 from fractions import Fraction as F
 
 import house_prisms
-from ifc_file import PRODUCTS, box_of, boxes_of, check, check_file, findings, in_millimetres, is_in_feet, numbers_of, of_kind, placed, points_of, read, references, related, rings_of, sets_of, solids_of, spelt, volume_of
+from ifc_file import ELEMENTS, PRODUCTS, box_of, boxes_of, check, check_file, findings, in_millimetres, is_in_feet, numbers_of, of_kind, placed, points_of, read, references, related, rings_of, sets_of, solids_of, spelt, volume_of
 
 
 def has_leaf(kind):
@@ -324,7 +324,47 @@ def check_layers(made, house):
                 found[tuple(layers_of(made, part, usage))] += 1
     check("layers of walls and slabs", found == wanted)
     check("layers of posts and roofs", sets == alone)
-    check("layers of walls below roofs", below.total() == len(gables) and {l["name"] for r in house["roofs"] if "face" in r for l in r["layers"]} <= {n for _, names in below for n in names})
+    check("layers of walls below roofs", below.total() == len(gables) and {l["name"] for r in house["roofs"] if "face" in r for l in r.get("layers", [])} <= {n for _, names in below for n in names})
+
+
+# ---- codes
+
+PARTS_OF = {"wall": {("IFCWALL", "outside"), ("IFCWALL", "gable")}, "party": {("IFCWALL", "party")}, "partition": {("IFCWALL", "partition")}, "post": {("IFCCOLUMN", "post")},
+            "floor": {("IFCSLAB", "deck"), ("IFCSLAB", "roofdeck")}, "roof": {("IFCROOF", "roof"), ("IFCSLAB", "roof")}, "guard": {("IFCRAILING", "guard")}}
+
+
+def codes_of(form):
+    """What the lines `classification` of a file say: the system, the part, its code and title or None."""
+    for system, classes in re.findall(r'^  classification "([^"]*)" for (.*(?:\n {6}.*)*)$', open(form, encoding="utf-8").read(), re.M):
+        for part, code, title in re.findall(r'([\w-]+) "([^"]*)"(?: "([^"]*)")?', classes):
+            yield system, part, code, title or None
+
+
+def check_codes(made, form):
+    """Each element and room has the codes of what it is in the form, and no other; a code is there once."""
+    named, kinds = defaultdict(set), defaultdict(set)
+    for number, (entity, args) in made.items():
+        if entity == "IFCSPACE":
+            named[spelt(args[7]).replace(" ", "-")].add(number)
+        elif entity in ELEMENTS:
+            named[spelt(args[2])].add(number)
+            kinds[entity, spelt(args[2])].add(number)
+    wanted, found, said = defaultdict(set), defaultdict(set), Counter()
+    for system, part, code, title in codes_of(form):
+        wanted[system, code, title] |= set().union(*(kinds[kind] for kind in PARTS_OF[part])) if part in PARTS_OF else named[part]
+    for entity, args in made.values():
+        if entity != "IFCRELASSOCIATESCLASSIFICATION":
+            continue
+        reference = made[references(args[5])[0]][1]
+        system = made[references(reference[3])[0]][1]
+        key = spelt(system[3]), spelt(reference[1]), None if reference[2] == "$" else spelt(reference[2])
+        said[key] += 1
+        found[key] |= set(references(args[4]))
+    for key in {*wanted, *found}:
+        check(f"the code {key}", wanted[key] == found[key])
+    check("some codes", any(found.values()))
+    check("each code once", set(said.values()) == {1})
+    check("each system once", len([n for n, (entity, _) in made.items() if entity == "IFCCLASSIFICATION"]) == len({key[0] for key in said}))
 
 
 # ---- where doors hang
@@ -590,6 +630,7 @@ parser = argparse.ArgumentParser()
 parser.add_argument("folder")
 parser.add_argument("reader", nargs="?")
 parser.add_argument("--title")
+parser.add_argument("--form")
 options = parser.parse_args()
 folder = options.folder
 written = read(folder + "/house.ifc")
@@ -604,6 +645,8 @@ groups = read_dxf(folder + "/house.dxf")
 check_dxf(folder + "/house.dxf", groups, house)
 check_doors(made, house, groups)
 check_layers(made, house)
+if options.form:
+    check_codes(made, options.form)
 title = [spelt(args[2]) for name, args in made.values() if name in ("IFCPROJECT", "IFCBUILDING")]
 check(f"the house is called {title[0]}", options.title is None or title == [options.title] * 2)
 validate(folder + "/house.ifc")

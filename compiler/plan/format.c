@@ -281,6 +281,8 @@ static void put_parts(tn_format *format, const size_t *starts, size_t count)
             put_tile(format, starts[i], starts[i + 1]);
         else if (find(format, starts[i], starts[i + 1], "{") < starts[i + 1])
             put_layers(format, starts[i], starts[i + 1]);
+        else if (tn_format_is(format, starts[i], "classification"))
+            tn_format_fill(format, starts[i], starts[i + 1], at_comma, true, BODY + CONTINUED, 0);
         else
             tn_format_fill(format, starts[i], starts[i + 1], at_part_break, false, BODY + CONTINUED, 0);
     }

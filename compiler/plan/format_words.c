@@ -91,7 +91,8 @@ const char *tn_format_newer_words(tn_arena *arena, const tn_source *source, cons
     for (size_t i = 0; i < tokens->count; i++) {
         if (tokens->items[i].kind == TN_TOKEN_WORD) {
             part = material && is(&r, i, TN_TOKEN_WORD, "for");
-            material = is(&r, i, TN_TOKEN_WORD, "material") || (material && !part);
+            material = is(&r, i, TN_TOKEN_WORD, "material") || is(&r, i, TN_TOKEN_WORD, "classification") ||
+                       (material && !part);
         }
         size_t word = older_at(&r, i, part);
         if (word < RENAMED)

@@ -100,6 +100,8 @@ typedef enum tn_comparison { TN_ALWAYS, TN_AGE_BELOW, TN_AGE_ABOVE, TN_AGE_EQUAL
 #define TN_MATERIALS_MAX 1000u
 #define TN_LAYERS_MAX 200u
 #define TN_BEAMS_MAX 64u
+#define TN_CLASSIFICATIONS_MAX 16u
+#define TN_CLASSES_MAX 1000u /* of one classification */
 #define TN_PRICE_MAX INT64_C(1000000000000000) /* millionths: a thousand million */
 #define TN_RATIO_MAX 1000u                     /* either number of the glazing of a room to its floor */
 #define TN_SLOPE_MAX 1000u                     /* either number of a slope */

@@ -53,6 +53,14 @@ library l using s { require trays = 2 trays 1..2 require trays + occurrences(any
 require (occurrences(tray(not 5', blue)) + quantity(any) + quantity(tray(red)) + quantity(any) = quantity(tray(5')) - trays) }
 END
 golden sums "tartan fmt - <$scratch/sums.plan"
+# Codes of classifications go on in lines that end with a comma; `deck` is `floor` there, too.
+cat >"$scratch/classes.plan" <<'END'
+schema s { width = 5' | 12' zone hall = room(14') }
+form f of s { storey ground 9' wall 8" partition 4" floor 1' roof 10" function living at cell(any)
+classification "DIN 276" for deck "350" "Floors and stairs", wall "330" "Outside walls", # all of them
+roof "360" "Roofs and all that is upon them", living"W1" classification "Rooms" for living "L" }
+END
+golden classes "tartan fmt - <$scratch/classes.plan"
 # Words that are called otherwise now are written so, once said for a file; what is called so by the author stays.
 golden older_words 'tartan fmt - <older-words.plan'
 golden older_words_checked 'tartan fmt --check older-words.plan own-floor.plan'

@@ -44,6 +44,12 @@ while read -r house; do
     made "$files/layers.plan" "$house" layers
     is 'a house in layers' "$($python "$here/../house_files.py" "$scratch/layers" "${reader[@]}")" fine
 done <"$scratch/houses"
+# Codes of parts and rooms, in three systems: what the form says, all of it and nothing else.
+"$TARTAN" sample "$files/classes.plan" 3 --library all --seed 4 >"$scratch/coded"
+while read -r house; do
+    made "$files/classes.plan" "$house" coded-house
+    is 'a house with codes' "$($python "$here/../house_files.py" "$scratch/coded-house" "${reader[@]}" --form "$files/classes.plan")" fine
+done <"$scratch/coded"
 "$TARTAN" house "$files/layers.plan" "$(head -n 1 "$scratch/houses")" --view section:x=5\' --scale 20 -o "$scratch/close.svg"
 "$TARTAN" house "$files/layers.plan" "$(head -n 1 "$scratch/houses")" --view section:x=5\' --scale 200 -o "$scratch/far.svg"
 cedar='fill="#dfcab9"' # of the boards, light
@@ -64,7 +70,7 @@ for operation in SINGLE_SWING_LEFT SINGLE_SWING_RIGHT DOUBLE_DOOR_SINGLE_SWING; 
     grep -q "IFCDOOR.*$operation" "$scratch/models" || fail "no door is $operation"
 done
 # The rules that the models are held to find what is wrong with one.
-for house in walk doors guarded climbed; do
+for house in walk doors guarded climbed coded-house; do
     is "faults in the model of $house" "$($python "$here/../ifc_file.py" --faults "$scratch/$house/house.ifc")" fine
 done
 

@@ -15,7 +15,7 @@ LENGTHS = {
 WEIGHTS.update({
     "size: NUMBER": plans.MISTAKE, "shape: NAME OPEN arguments CLOSE": 2, "cell_not: CELL OPEN specifier CLOSE": 5, "cell_not: NOT cell_not": .2,
     "cell_not: OPEN cells CLOSE": .2, "cells: cell_ors": .08, "cell_and: cell_ands": .1, "options: option_ors": 1, "option_and: option_ands": 2, "option_ands: option_ands AND option_not": 2,
-    "material_where: WHERE options": 2, "tile_part: stretch_word NAME doc reaches drawn": 2, "drawn: %empty": 12, "drawn: SYMBOL OPEN_BRACE symbol_lines CLOSE_BRACE": 2,
+    "material_where: WHERE options": 2, "tile_part: stretch_word NAME doc reaches drawn": 2, "drawn: %empty": 8, "drawn: SYMBOL OPEN_BRACE symbol_lines CLOSE_BRACE": 2,
     "option_not: OPTION OPEN option_items CLOSE": 4, "opening_part: PASSAGE": 8, "opening_part: SILL size": .3, "opening_part: NEAR side size": .2, "opening_parts: opening_parts opening_part": 2,
     "option_not: OPEN options CLOSE": 1, "option_not: NOT option_not": .5,
     "primary: APART OPEN cells COMMA FROM cells walk_by CLOSE": 4, "primary: TOUCH OPEN cells COMMA cells by_kinds CLOSE": 2,
@@ -28,6 +28,7 @@ FORM_CLAUSES = {
     "flight NAME doc WIDE size RISE size DOTS size going turn winders": .2, "face cells relation cells EQUAL kinds": 2.5,
     "face cells OUTSIDE outside_side EQUAL kinds": 1, "tile NAME doc FOR names OPEN_BRACE tile_parts CLOSE_BRACE": .8, "allow_word names": .2,
     "material NAME STRING price FOR names material_where": .8, "way size": .4, "way size FOR names": .2, "headroom size": .2, "guard size": .1, "beam NAME doc WIDE size HIGH size SPAN size": .1,
+    "classification STRING FOR classes": .3,
 }
 CELLS = {"counted", "cells"}
 SORTS["primary: CELL OPEN specifier CLOSE"] = QUESTIONS | CELLS
@@ -102,6 +103,7 @@ CONTEXTS.update({
     "form_clause: tile NAME doc FOR names OPEN_BRACE tile_parts CLOSE_BRACE": joined(fresh("bed"), named(_4="function", _6="tile")),
     "form_clause: allow_word names": named(_1="code"),
     "form_clause: material NAME STRING price FOR names material_where": joined(fresh("oak"), named(_2="colour", _3="unit", _5="part")),
+    "form_clause: classification STRING FOR classes": named(_1="title"),
     "form_clause: way size": sized(_1="person"), "form_clause: headroom size": sized(_1="headroom"), "form_clause: guard size": sized(_1="sill"),
     "form_clause: beam NAME doc WIDE size HIGH size SPAN size": fresh("girder", _4="partition", _6="sill", _8="storey"),
     "form_clause: way size FOR names": joined(sized(_1="person"), named(_3="function")), "opening_part: NEAR side size": sized(_2="short"),
@@ -298,6 +300,19 @@ def kinds(maker, depth, place):
     return listed(maker.grammar, "kinds", [maker.word("NAME", text) for text in sorted(names)])
 
 
+def classes(maker, depth, place):
+    """Codes of some parts and functions, each once."""
+    form = form_of(place)
+    known = [n for n in form.functions + form.openings if n not in form.items and not (n in form.functions and n in form.openings)]
+    some = maker.random.sample(sorted({"wall", "party", "partition", "post", "roof", *known}), maker.random.choice([1, 1, 2, 3]))
+    return listed(maker.grammar, "classes", [classified(maker, place, name) for name in some])
+
+
+def classified(maker, place, name):
+    code = maker.word("STRING", f'"{maker.random.randint(1, 999)}"')
+    return maker.node("class: NAME STRING doc", maker.word("NAME", name), code, maker.make("doc", 1, place))
+
+
 def line_end(maker, depth, place):
     """From a side and from one across it."""
     sides = [maker.random.choice(pair) for pair in (("LEFT", "RIGHT"), ("BACK", "FRONT"))]
@@ -323,7 +338,7 @@ def thickness(maker, depth, place):
     return maker.node("thickness: " + left[0])
 
 
-plans.HOOKS.update({"cells": plain_cells, "shapes": shapes, "option_item": option_item, "form_clauses": form_clauses, "kinds": kinds, "thickness": thickness, "line_end": line_end, "symbol_lines": symbol_lines})
+plans.HOOKS.update({"cells": plain_cells, "shapes": shapes, "option_item": option_item, "form_clauses": form_clauses, "kinds": kinds, "classes": classes, "thickness": thickness, "line_end": line_end, "symbol_lines": symbol_lines})
 AVAILABLE["primary: OPTION OPEN option_items CLOSE"] = lambda place: place.form and form_of(place).options
 AVAILABLE["size: NUMBER"] = lambda place: place.want in ("short", "sill")                    # 0, where a size may be none
 AVAILABLE["form_clause: forbid_word options"] = AVAILABLE["material_where: WHERE options"] = lambda place: form_of(place).options

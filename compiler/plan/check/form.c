@@ -328,6 +328,8 @@ static void each(tn_check *check, tn_checked_form *form, tn_form_part part)
             tn_check_tile(check, form, clause);
         else if (part == TN_PART_MATERIAL)
             tn_check_material(check, form, clause);
+        else if (part == TN_PART_CLASSIFICATION)
+            tn_check_classification(check, form, clause);
     }
 }
 
@@ -458,6 +460,7 @@ static bool make_room(tn_check *check, tn_checked_form *form)
     form->faces = TN_NEW_ARRAY(check->arena, tn_checked_face, count);
     form->tiles = TN_NEW_ARRAY(check->arena, tn_checked_tile, count);
     form->materials = TN_NEW_ARRAY(check->arena, tn_checked_material, count);
+    form->classifications = TN_NEW_ARRAY(check->arena, tn_checked_classification, count);
     form->ways = TN_NEW_ARRAY(check->arena, tn_checked_way, count);
     return !tn_arena_failed(check->arena);
 }
@@ -507,6 +510,7 @@ static void check_form(tn_check *check, tn_checked_form *form)
     tn_check_layers(check, form);
     tn_check_beams(check, form);
     each(check, form, TN_PART_MATERIAL);
+    each(check, form, TN_PART_CLASSIFICATION);
     tn_check_layer_prices(check, form);
 }
 

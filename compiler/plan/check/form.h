@@ -108,6 +108,18 @@ typedef struct tn_checked_beam {
     int64_t wide, high, span;
 } tn_checked_beam;
 
+/* part: as of a material; behind them the form's functions. */
+typedef struct tn_checked_class {
+    const tn_ast_class *ast;
+    uint32_t part;
+} tn_checked_class;
+
+typedef struct tn_checked_classification {
+    const tn_ast_form_clause *ast;
+    tn_checked_class *classes; /* by ascending part */
+    uint32_t class_count;
+} tn_checked_classification;
+
 typedef struct tn_checked_form {
     const tn_ast_form *ast;
     const char *name;
@@ -126,13 +138,14 @@ typedef struct tn_checked_form {
     tn_checked_tile *tiles;
     tn_checked_material *materials;
     tn_checked_beam *beams;
+    tn_checked_classification *classifications;
     tn_checked_way *ways;  /* [functions] of each; of those that lines name: ast */
     int64_t way, headroom, guard; /* 0: nothing is asked about ways */
     const tn_ast_form_clause *way_ast, *headroom_ast, *guard_ast;
     uint32_t index, storey_first, rule_first, shape_first; /* emitted: of its records */
     tn_ast_list allow;                                     /* tn_ast_word: warnings that it does not want */
     uint32_t storey_count, choice_count, rule_count, function_count, opening_count, face_count, tile_count;
-    uint32_t material_count, layer_count, beam_count;
+    uint32_t material_count, layer_count, beam_count, classification_count;
 } tn_checked_form;
 
 /* Of two words for one thing, those in the unit of the schema's lengths; in feet where it has none. */
@@ -227,5 +240,6 @@ uint32_t tn_form_item_named(const tn_checked_form *form, const char *name);
 /* The part that a material is for, and that has this name; TN_NONE where there is none. */
 uint32_t tn_form_part_named(const tn_checked_form *form, const char *name);
 void tn_check_material(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast);
+void tn_check_classification(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast);
 
 #endif

@@ -1,5 +1,5 @@
 /* Checks what the parts of a form are made of: the layers of walls, partitions, decks and roofs, beams, and
- * materials, their colours and prices, what they are for and where. */
+ * materials, their colours and prices, what they are for and where; and which codes parts have in classifications. */
 #include <stdio.h>
 #include <string.h>
 
@@ -98,6 +98,12 @@ static uint32_t count_boxes(const tn_checked_form *form)
     return boxes;
 }
 
+/* How many numbers of parts there are, functions left out. */
+static uint32_t count_parts(const tn_checked_form *form)
+{
+    return TN_OF_COUNT + form->layer_count + form->opening_count + count_boxes(form) + 1 + form->beam_count;
+}
+
 /* Floors were called decks: if a layer, an opening or an item of the form is called `floor`, that is what the name means,
  * as it did. */
 static bool has_own_floor(const tn_checked_form *form)
@@ -129,25 +135,36 @@ uint32_t tn_form_part_named(const tn_checked_form *form, const char *name)
     return item == TN_NONE ? TN_NONE : items + item;
 }
 
-static void unknown_part(tn_check *check, const tn_checked_form *form, const tn_ast_word *word)
+/* Appends a name, if there is room. */
+static void offer(const char **names, size_t *count, size_t room, const tn_ast_word *name)
 {
-    const char *names[TN_OF_COUNT + 1 + TN_LAYERS_MAX + TN_BEAMS_MAX + TN_OPENINGS_MAX + 64];
+    if (*count < room)
+        names[(*count)++] = name->text;
+}
+
+/* E1602: there is no such part; `functions`: nor such a function. */
+static void unknown_part(tn_check *check, const tn_checked_form *form, const tn_ast_word *word, bool functions)
+{
+    const char *names[TN_OF_COUNT + 1 + TN_LAYERS_MAX + TN_BEAMS_MAX + TN_OPENINGS_MAX + 128];
     size_t count = 0, room = sizeof names / sizeof *names;
     for (; count < TN_OF_COUNT; count++)
         names[count] = tn_names_OF[count];
     if (form->guard > 0)
         names[count++] = "guard";
-    for (uint32_t i = 0; i < form->layer_count; i++)
-        names[count++] = form->layers[i].ast->name->text;
+    for (uint32_t i = 0; i < form->layer_count && !functions; i++)
+        offer(names, &count, room, form->layers[i].ast->name);
     for (uint32_t i = 0; i < form->beam_count; i++)
-        names[count++] = form->beams[i].ast->name->text;
+        offer(names, &count, room, form->beams[i].ast->name);
     for (uint32_t i = 0; i < form->opening_count; i++)
-        names[count++] = form->openings[i].ast->name->text;
+        offer(names, &count, room, form->openings[i].ast->name);
+    for (uint32_t i = 0; i < form->function_count && functions; i++)
+        if (tn_form_part_named(form, form->rules[i].ast->name->text) == TN_NONE)
+            offer(names, &count, room, form->rules[i].ast->name);
     for (uint32_t t = 0; t < form->tile_count; t++)
-        for (uint32_t b = 0; b < form->tiles[t].box_count && count < room; b++)
+        for (uint32_t b = 0; b < form->tiles[t].box_count; b++)
             if (!(form->tiles[t].boxes[b].flags & TN_TILE_KEEP))
-                names[count++] = form->tiles[t].box_ast[b]->name->text;
-    tn_form_unknown(check, form, word, "part or item", names, count);
+                offer(names, &count, room, form->tiles[t].box_ast[b]->name);
+    tn_form_unknown(check, form, word, functions ? "part, item or function" : "part or item", names, count);
 }
 
 /* Is the part made of an earlier material in every house? */
@@ -195,7 +212,7 @@ void tn_check_material(tn_check *check, tn_checked_form *form, const tn_ast_form
         uint32_t part = tn_form_part_named(form, word->text);
         known &= part != TN_NONE;
         if (part == TN_NONE)
-            unknown_part(check, form, word);
+            unknown_part(check, form, word, false);
         else
             material.parts[material.part_count++] = part;
     }
@@ -500,4 +517,101 @@ void tn_check_layer_prices(tn_check *check, const tn_checked_form *form)
             tn_help(check->diagnostics, d, "add a line such as `material %s \"#c8a878\" price 1 per %s for %s`",
                     name->text, unit, name->text);
     }
+}
+
+/* ---- codes */
+
+/* E1674: `before`, the name of a part and `after` say what is wrong. */
+static void bad_class(tn_check *check, const tn_ast_word *at, const tn_ast_word *name, const char *before,
+                      const char *after, const char *help)
+{
+    tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_CLASS, at->node.span, "%s`%.80s` %s", before, name->text,
+                                 after);
+    tn_help(check->diagnostics, d, "%s", help);
+}
+
+/* The number of what has a code; TN_NONE: reported. */
+static uint32_t part_of(tn_check *check, const tn_checked_form *form, const tn_ast_word *name)
+{
+    uint32_t part = tn_form_part_named(form, name->text), function = tn_form_function(form, name->text);
+    bool layer = part != TN_NONE && part >= TN_OF_COUNT && part - TN_OF_COUNT < form->layer_count;
+    if (layer)
+        bad_class(check, name, name, "layer ", "has no code of its own",
+                  "give the code to what it is a layer of, such as `wall`");
+    else if (part != TN_NONE && function != TN_NONE)
+        bad_class(check, name, name, "", "is both a function and something that is built",
+                  "call one of the two otherwise, so that it is clear what has the code");
+    else if (part == TN_NONE && function == TN_NONE)
+        unknown_part(check, form, name, true);
+    else
+        return part != TN_NONE ? part : count_parts(form) + function;
+    return TN_NONE;
+}
+
+static bool is_first(tn_check *check, const tn_checked_classification *classification, const tn_checked_class *next)
+{
+    for (uint32_t i = 0; i < classification->class_count; i++) {
+        const tn_ast_word *first = classification->classes[i].ast->name;
+        if (classification->classes[i].part != next->part)
+            continue;
+        tn_form_twice(check, &next->ast->name->node.span, &first->node.span, "", next->ast->name->text);
+        return false;
+    }
+    return true;
+}
+
+/* Takes a class to its place in the order of parts. */
+static void take(tn_checked_classification *classification, tn_checked_class next)
+{
+    uint32_t i = classification->class_count++;
+    for (; i > 0 && classification->classes[i - 1].part > next.part; i--)
+        classification->classes[i] = classification->classes[i - 1];
+    classification->classes[i] = next;
+}
+
+static void check_class(tn_check *check, const tn_checked_form *form, tn_checked_classification *classification,
+                        const tn_ast_class *ast)
+{
+    tn_checked_class next = {ast, part_of(check, form, ast->name)};
+    if (next.part == TN_NONE || !is_first(check, classification, &next))
+        return;
+    if (ast->code->text[0] == '\0')
+        bad_class(check, ast->code, ast->name, "the code of ", "is empty", "write the code, or leave the part out");
+    else if (tn_name_fits(check->diagnostics, ast->code->text, ast->code->node.span))
+        take(classification, next);
+}
+
+static bool has_name(tn_check *check, const tn_checked_form *form, const tn_ast_word *name)
+{
+    if (name->text[0] == '\0') {
+        tn_diagnostic *d = tn_report(check->diagnostics, E_BAD_CLASS, name->node.span, "a classification has no name");
+        tn_help(check->diagnostics, d, "write what the system is called, such as \"Uniclass 2015\"");
+        return false;
+    }
+    for (uint32_t i = 0; i < form->classification_count; i++) {
+        const tn_ast_word *first = form->classifications[i].ast->doc;
+        if (strcmp(first->text, name->text) != 0)
+            continue;
+        tn_form_twice(check, &name->node.span, &first->node.span, "classification ", name->text);
+        return false;
+    }
+    return tn_name_fits(check->diagnostics, name->text, name->node.span);
+}
+
+void tn_check_classification(tn_check *check, tn_checked_form *form, const tn_ast_form_clause *ast)
+{
+    tn_checked_classification classification = {
+        .ast = ast, .classes = TN_NEW_ARRAY(check->arena, tn_checked_class, ast->parts.count)};
+    if (!classification.classes || !ast->doc || !has_name(check, form, ast->doc) ||
+        !tn_check_room(check, form->classification_count, TN_CLASSIFICATIONS_MAX, "classification", ast->node.span,
+                       "leave some of them out"))
+        return;
+    for (TN_EACH(const tn_ast_class, next, ast->parts)) {
+        if (!tn_check_room(check, classification.class_count, TN_CLASSES_MAX, "code", next->node.span,
+                           "leave some of them out"))
+            break;
+        check_class(check, form, &classification, next);
+    }
+    if (classification.class_count > 0)
+        form->classifications[form->classification_count++] = classification;
 }

@@ -250,6 +250,26 @@ static void emit_beams(tn_emit *emit, const tn_checked_form *form)
     }
 }
 
+static void emit_classifications(tn_emit *emit, const tn_checked_form *form)
+{
+    for (uint32_t i = 0; i < form->classification_count; i++) {
+        const tn_checked_classification *classification = &form->classifications[i];
+        uint32_t first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_CLASS);
+        for (uint32_t c = 0; c < classification->class_count; c++) {
+            const tn_ast_class *ast = classification->classes[c].ast;
+            tn_builder_add_CLASS(emit->builder, &(tn_class_record){.part = classification->classes[c].part,
+                                                                   .code = text(emit, ast->code),
+                                                                   .title = text(emit, ast->title),
+                                                                   PLACE(ast->node.span)});
+        }
+        tn_builder_add_CLASSIFICATION(emit->builder,
+                                      &(tn_classification_record){.name = text(emit, classification->ast->doc),
+                                                                  .class_first = first,
+                                                                  .class_count = classification->class_count,
+                                                                  PLACE(classification->ast->node.span)});
+    }
+}
+
 static void emit_form(tn_emit *emit, tn_checked_form *form)
 {
     uint32_t counts[] = {(uint32_t)tn_builder_count(emit->builder, TN_SECTION_STOREY),
@@ -260,7 +280,8 @@ static void emit_form(tn_emit *emit, tn_checked_form *form)
                          (uint32_t)tn_builder_count(emit->builder, TN_SECTION_TILE),
                          (uint32_t)tn_builder_count(emit->builder, TN_SECTION_MATERIAL),
                          (uint32_t)tn_builder_count(emit->builder, TN_SECTION_LAYER),
-                         (uint32_t)tn_builder_count(emit->builder, TN_SECTION_BEAM)};
+                         (uint32_t)tn_builder_count(emit->builder, TN_SECTION_BEAM),
+                         (uint32_t)tn_builder_count(emit->builder, TN_SECTION_CLASSIFICATION)};
     form->storey_first = counts[0];
     form->rule_first = counts[2];
     form->shape_first = (uint32_t)tn_builder_count(emit->builder, TN_SECTION_SHAPE);
@@ -275,6 +296,7 @@ static void emit_form(tn_emit *emit, tn_checked_form *form)
     emit_materials(emit, form);
     emit_layers(emit, form);
     emit_beams(emit, form);
+    emit_classifications(emit, form);
     tn_builder_add_FORM(emit->builder, &(tn_form_record){.name = tn_builder_string(emit->builder, form->name),
                                                          .doc = text(emit, form->ast->doc),
                                                          .schema = form->schema->index,
@@ -305,6 +327,8 @@ static void emit_form(tn_emit *emit, tn_checked_form *form)
                                                          .guard = form->guard,
                                                          .beam_first = counts[8],
                                                          .beam_count = form->beam_count,
+                                                         .classification_first = counts[9],
+                                                         .classification_count = form->classification_count,
                                                          PLACE(form->ast->top.node.span)});
 }
 

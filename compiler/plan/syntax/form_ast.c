@@ -54,6 +54,14 @@ void *tn_ast_layer_new(tn_parse *parse, tn_span span, const tn_ast_word *name, c
     return name && length ? node : NULL;
 }
 
+void *tn_ast_class_new(tn_parse *parse, tn_span span, const tn_ast_word *name, const tn_ast_word *code,
+                       const tn_ast_word *title)
+{
+    MAKE(tn_ast_class);
+    *node = (tn_ast_class){.node.span = span, .name = name, .code = code, .title = title};
+    return name && code ? node : NULL;
+}
+
 void *tn_ast_reach_new(tn_parse *parse, tn_span span, tn_ast_reach reach)
 {
     MAKE(tn_ast_reach);

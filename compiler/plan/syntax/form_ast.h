@@ -27,6 +27,7 @@ typedef enum tn_form_part {
     TN_PART_HEADROOM,
     TN_PART_GUARD,
     TN_PART_BEAM,
+    TN_PART_CLASSIFICATION,
     TN_PART_ALLOW
 } tn_form_part;
 
@@ -65,6 +66,12 @@ typedef struct tn_ast_layer {
     const tn_ast_word *name, *length;
 } tn_ast_layer;
 
+/* What a part is called in a classification. title: or NULL. */
+typedef struct tn_ast_class {
+    tn_ast_node node;
+    const tn_ast_word *name, *code, *title;
+} tn_ast_class;
+
 /* One stretch of a tile's box: from a side so far, to a side so far. */
 typedef enum tn_box_side { TN_BOX_LEFT, TN_BOX_RIGHT, TN_BOX_BACK, TN_BOX_FRONT, TN_BOX_UP } tn_box_side;
 typedef struct tn_ast_reach {
@@ -94,7 +101,7 @@ typedef struct tn_ast_tile_part {
 typedef struct tn_ast_form_clause {
     tn_ast_node node;
     tn_form_part part;
-    const tn_ast_word *name, *doc; /* of a material, the doc is its colour */
+    const tn_ast_word *name, *doc; /* of a material, the doc is its colour; of a classification, its name */
     const tn_ast_word *detail; /* wall: `outside`, `party` or NULL; section: the word after the zone; outside: the side,
                                   or NULL; material: per what; flight: how it turns, or NULL */
     const tn_ast_word *length; /* storey, thickness, an opening's width; a material's price, or NULL */
@@ -106,7 +113,7 @@ typedef struct tn_ast_form_clause {
     tn_face_relation relation;
     tn_ast_expr *first, *second; /* material: where it is used, or NULL */
     tn_ast_list list;  /* section: tn_ast_shape; face: kinds; tile, way: functions; material: parts; allow: codes */
-    tn_ast_list parts; /* opening: tn_ast_opening_part; tile: tn_ast_tile_part; thickness: tn_ast_layer */
+    tn_ast_list parts; /* opening: tn_ast_opening_part; tile: tn_ast_tile_part; thickness: tn_ast_layer; classification: tn_ast_class */
     tn_span layered;   /* thickness: the braces with its layers; empty where there are none */
 } tn_ast_form_clause;
 
@@ -122,6 +129,8 @@ void *tn_ast_shape_new(tn_parse *parse, tn_span span, const tn_ast_word *word, t
 void *tn_ast_argument_new(tn_parse *parse, tn_span span, const tn_ast_word *word, const tn_ast_word *run);
 void *tn_ast_opening_part_new(tn_parse *parse, tn_span span, tn_ast_opening_part part);
 void *tn_ast_layer_new(tn_parse *parse, tn_span span, const tn_ast_word *name, const tn_ast_word *length);
+void *tn_ast_class_new(tn_parse *parse, tn_span span, const tn_ast_word *name, const tn_ast_word *code,
+                       const tn_ast_word *title);
 void *tn_ast_reach_new(tn_parse *parse, tn_span span, tn_ast_reach reach);
 void *tn_ast_symbol_line_new(tn_parse *parse, tn_span span, tn_ast_symbol_line from, tn_ast_symbol_line to);
 void *tn_ast_tile_part_new(tn_parse *parse, tn_span span, tn_ast_tile_part part);

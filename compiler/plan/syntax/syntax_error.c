@@ -47,6 +47,7 @@ static const struct {
     {"item", "item bed left 2'..7', back 0..6'8\", up 0..2'", "item bed left 600mm..2.1m, back 0..2m, up 0..600mm"},
     {"material", "material brick \"#a05040\" price 12 per sf for wall",
      "material brick \"#a05040\" price 120 per m2 for wall"},
+    {"classification", "classification \"Uniclass 2015\" for wall \"EF_25_10\", roof \"EF_30_10\"", NULL},
     {"rule", "rule wide = tray(width > 8')", "rule wide = tray(width > 2.4m)"},
     {"library", "library rows using shed { trays 2..4 }", NULL},
     {"test", "test corner { match [8' | 4'] }", "test corner { match [2.4m | 1.2m] }"},

@@ -19,7 +19,8 @@ typedef enum tn_ifc_relation {
     TN_IFC_SET,      /* of properties or quantities */
     TN_IFC_TYPE,     /* of elements or spaces */
     TN_IFC_MATERIAL, /* or layers */
-    TN_IFC_ZONE
+    TN_IFC_ZONE,
+    TN_IFC_CLASS
 } tn_ifc_relation;
 
 typedef struct tn_ifc_group {
@@ -58,6 +59,7 @@ typedef struct tn_ifc {
     size_t group_count, group_room;
     unsigned *materials; /* [kind of solid, then material, then layer of the form] */
     unsigned layer_sets[TN_LAYERED_COUNT];
+    unsigned classifications[TN_CLASSIFICATIONS_MAX]; /* of the form */
     unsigned *styles; /* [kind of solid, then material] */
     unsigned char colours[TN_HOUSE_GROUPS_MAX][3];
     unsigned scrap; /* in place of a group's definition when there is no memory for it */
@@ -107,7 +109,10 @@ void tn_ifc_quantities(tn_ifc *ifc, unsigned part, const char *set, const char *
 /* Solids that are written from now on look as what this one is made of. */
 void tn_ifc_look_as(tn_ifc *ifc, const tn_solid *solid);
 
-/* Says what a part is made of. */
+/* Gives a part its codes in the form's classifications. number: of a part as in CLASS. */
+void tn_ifc_classify(tn_ifc *ifc, uint32_t number, unsigned part);
+
+/* Says what a part is made of, and gives it its codes. */
 void tn_ifc_make_of(tn_ifc *ifc, const tn_solid *solid, unsigned part);
 
 /* What groups are related to. */

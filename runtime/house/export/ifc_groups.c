@@ -38,7 +38,8 @@ void tn_ifc_put_groups(tn_ifc *ifc)
     static const char *const relations[] = {[TN_IFC_SET] = "DEFINESBYPROPERTIES",
                                             [TN_IFC_TYPE] = "DEFINESBYTYPE",
                                             [TN_IFC_MATERIAL] = "ASSOCIATESMATERIAL",
-                                            [TN_IFC_ZONE] = "ASSIGNSTOGROUP"};
+                                            [TN_IFC_ZONE] = "ASSIGNSTOGROUP",
+                                            [TN_IFC_CLASS] = "ASSOCIATESCLASSIFICATION"};
     for (size_t i = 0; i < ifc->group_count; i++) {
         tn_ifc_group *group = &ifc->groups[i];
         const char *parts = tn_stepfile_list_text(&group->parts);
@@ -161,6 +162,42 @@ void tn_ifc_quantities(tn_ifc *ifc, unsigned part, const char *set, const char *
         *definition = put_quantities(ifc, set, tn_stepfile_guid(step, "set %s", own), quantities, count);
 }
 
+/* ---- codes */
+
+static unsigned put_class(tn_ifc *ifc, uint32_t table, const char *name, const char *code, const char *title)
+{
+    tn_stepfile *step = &ifc->step;
+    unsigned *whole = &ifc->classifications[table];
+    char said[1300] = "$";
+    if (!*whole)
+        *whole = tn_stepfile_add(step, "IFCCLASSIFICATION($,$,$,'%s',$,$,$)", tn_stepfile_text(name).text);
+    if (title[0])
+        snprintf(said, sizeof said, "'%s'", tn_stepfile_text(title).text);
+    return tn_stepfile_add(step, "IFCCLASSIFICATIONREFERENCE($,'%s',%s,#%u,$,$)", tn_stepfile_text(code).text, said,
+                           *whole);
+}
+
+void tn_ifc_classify(tn_ifc *ifc, uint32_t number, unsigned part)
+{
+    const tn_module *module = ifc->house->form->module;
+    const tn_form_record *form = ifc->house->form->record;
+    char key[KEY_ROOM];
+    for (uint32_t i = 0; i < form->classification_count; i++) {
+        const tn_classification_record *table = &module->CLASSIFICATION_records[form->classification_first + i];
+        const char *name = tn_text(module, table->name);
+        for (uint32_t c = 0; c < table->class_count; c++) {
+            const tn_class_record *class = &module->CLASS_records[table->class_first + c];
+            const char *code = tn_text(module, class->code), *title = tn_text(module, class->title);
+            if (class->part != number)
+                continue;
+            snprintf(key, sizeof key, "%zu %s %zu %s %s", strlen(name), name, strlen(code), code, title);
+            unsigned *definition = tn_ifc_group_of(ifc, TN_IFC_CLASS, key, part);
+            if (*definition == 0)
+                *definition = put_class(ifc, i, name, code, title);
+        }
+    }
+}
+
 /* ---- what parts are made of */
 
 /* The place in `materials` and `styles` of what a solid is made of: of one in layers, of the first. */
@@ -241,6 +278,7 @@ void tn_ifc_make_of(tn_ifc *ifc, const tn_solid *s, unsigned part)
 {
     char key[40];
     tn_layering layers = tn_solid_layering(ifc->house, s->kind, s->of, s->item);
+    tn_ifc_classify(ifc, tn_solid_whole_part(ifc->house, s->kind, s->of, s->item), part);
     if (layers.count > 0) {
         tn_layered of = (tn_layered)tn_form_layer(ifc->house->form, layers.first)->of;
         tn_layers_lie lie = lie_of(s, &layers);

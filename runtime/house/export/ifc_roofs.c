@@ -187,6 +187,7 @@ static unsigned put_whole(tn_ifc *ifc, const char *type, tn_ifc_roof *roof)
         {"GrossArea", 'A', roof->area}, {"NetArea", 'A', roof->area}, {"ProjectedArea", 'A', roof->plan}};
     tn_ifc_properties(ifc, made, "Pset_RoofCommon", name, &external, 1);
     tn_ifc_quantities(ifc, made, "Qto_RoofBaseQuantities", "roof", quantities, 3);
+    tn_ifc_classify(ifc, TN_OF_ROOF, made);
     return made;
 }
 

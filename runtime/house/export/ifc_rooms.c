@@ -148,6 +148,7 @@ static void put_space(tn_ifc *ifc, uint32_t room, tn_stepfile_list *list)
     tn_ifc_properties(ifc, space, "Pset_SpaceCommon", function, &external, 1);
     tn_ifc_quantities(ifc, space, "Qto_SpaceBaseQuantities", key, quantities, sums.level ? 4 : 3);
     put_zone(ifc, function, space);
+    tn_ifc_classify(ifc, tn_form_parts(house->form) + house->cells[room].function, space);
     ifc->spaces[room] = space;
     tn_stepfile_list_add(list, space);
 }

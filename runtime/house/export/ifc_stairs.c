@@ -235,6 +235,8 @@ static unsigned put_whole(tn_ifc *ifc, tn_ifc_stair *stair)
     if (parts)
         tn_stepfile_add(&ifc->step, "IFCRELAGGREGATES('%s',$,$,$,#%u,%s)",
                         tn_stepfile_guid(&ifc->step, "parts of %s", stair->key).text, made, parts);
+    if (ifc->house->faces[stair->face].kind >= TN_FACE_KIND_COUNT)
+        tn_ifc_classify(ifc, tn_solid_whole_part(ifc->house, TN_SOLID_FLIGHT, stair->face, 0), made);
     if (stair->risers > 0)
         describe_steps(ifc, stair, made, "Pset_StairCommon", stair->risers, stair->risers - 1);
     else

@@ -143,19 +143,47 @@ static tn_status check_tile(const tn_checker *checker, const tn_form_record *for
                            : status;
 }
 
-/* The boxes of a form's tiles follow one another; an item is named by the first of its name among them. Guards have the
- * number behind all of them; then come beams. */
+/* How many numbers of parts there are. The boxes of a form's tiles follow one another; an item is named by the first of
+ * its name among them. Guards have the number behind all of them; then come beams. */
+static uint32_t count_parts(const tn_module *module, const tn_form_record *form)
+{
+    uint32_t boxes = 0;
+    for (uint32_t i = 0; i < form->tile_count; i++)
+        boxes += module->TILE_records[form->tile_first + i].box_count;
+    return TN_OF_COUNT + form->layer_count + form->opening_count + boxes + 1 + form->beam_count;
+}
+
 static tn_status check_material(const tn_checker *checker, const tn_form_record *form, uint32_t index)
 {
     const tn_module *module = checker->module;
     const tn_material_record *material = &module->MATERIAL_records[index];
-    uint32_t boxes = 0;
-    for (uint32_t i = 0; i < form->tile_count; i++)
-        boxes += module->TILE_records[form->tile_first + i].box_count;
     if (material->where != TN_NO_RECORD && !decides(checker, material->where, TN_FUNCTION_SECTION, form->schema))
         return tn_refuse(checker, "material %u names a function of another kind or schema", index);
-    return check_items(checker, material->part_first, material->part_count,
-                       TN_OF_COUNT + form->layer_count + form->opening_count + boxes + 1 + form->beam_count);
+    return check_items(checker, material->part_first, material->part_count, count_parts(module, form));
+}
+
+/* Layers are parts of elements, and no elements. */
+static bool may_be_classified(const tn_module *module, const tn_form_record *form, uint32_t part)
+{
+    uint32_t parts = count_parts(module, form);
+    if (part >= parts)
+        return part - parts < form->rule_count &&
+               module->CELL_RULE_records[form->rule_first + part - parts].kind == TN_CELL_FUNCTION;
+    return part < TN_OF_COUNT || part - TN_OF_COUNT >= form->layer_count;
+}
+
+static tn_status check_classification(const tn_checker *checker, const tn_form_record *form, uint32_t index)
+{
+    const tn_module *module = checker->module;
+    const tn_classification_record *classification = &module->CLASSIFICATION_records[index];
+    const tn_class_record *classes = &module->CLASS_records[classification->class_first];
+    for (uint32_t i = 0; i < classification->class_count; i++) {
+        if (!may_be_classified(module, form, classes[i].part))
+            return tn_refuse(checker, "classification %u has a code for what cannot have one", index);
+        if (i > 0 && classes[i].part <= classes[i - 1].part)
+            return tn_refuse(checker, "classification %u has a code out of order", index);
+    }
+    return TN_OK;
 }
 
 /* They stand by what they are layers of, and fill it. */
@@ -342,6 +370,8 @@ static tn_status check_form(const tn_checker *checker, uint32_t index)
         status = check_tile(checker, form, form->tile_first + i);
     for (uint32_t i = 0; status == TN_OK && i < form->material_count; i++)
         status = check_material(checker, form, form->material_first + i);
+    for (uint32_t i = 0; status == TN_OK && i < form->classification_count; i++)
+        status = check_classification(checker, form, form->classification_first + i);
     return status;
 }
 
@@ -549,7 +579,7 @@ static const tn_section sections[] = {
     TN_SECTION_CELL_RULE,     TN_SECTION_OPENING,    TN_SECTION_FACE_LINE,  TN_SECTION_TILE,
     TN_SECTION_TILE_BOX,      TN_SECTION_SYMBOL_LINE,   TN_SECTION_HOUSE_ITEM, TN_SECTION_HOUSE_RULE, TN_SECTION_HOUSE_LIBRARY,
     TN_SECTION_HOUSE_CLAUSE,  TN_SECTION_MEETING,    TN_SECTION_MATERIAL,   TN_SECTION_LAYER,
-    TN_SECTION_BEAM,
+    TN_SECTION_BEAM,          TN_SECTION_CLASSIFICATION, TN_SECTION_CLASS,
     TN_SECTION_HOUSE_MEASURE, TN_SECTION_HOUSE_TERM, TN_SECTION_HOUSE_SUM,  TN_SECTION_STRINGS};
 
 static const tn_operand_rules operands[] = {

@@ -46,11 +46,8 @@ uint32_t tn_layer_part(const tn_house_form *form, uint32_t layer)
     return TN_OF_COUNT + first;
 }
 
-uint32_t tn_solid_made_part(const tn_house *house, tn_solid_kind kind, uint32_t of, uint32_t item)
+uint32_t tn_solid_whole_part(const tn_house *house, tn_solid_kind kind, uint32_t of, uint32_t item)
 {
-    tn_layering layers = tn_solid_layering(house, kind, of, item);
-    if (layers.count > 0)
-        return tn_layer_part(house->form, layers.first);
     switch (kind) {
     case TN_SOLID_OUTSIDE:
     case TN_SOLID_GABLE:
@@ -78,6 +75,12 @@ uint32_t tn_solid_made_part(const tn_house *house, tn_solid_kind kind, uint32_t 
     default:
         return TN_OF_ROOF;
     }
+}
+
+uint32_t tn_solid_made_part(const tn_house *house, tn_solid_kind kind, uint32_t of, uint32_t item)
+{
+    tn_layering layers = tn_solid_layering(house, kind, of, item);
+    return layers.count > 0 ? tn_layer_part(house->form, layers.first) : tn_solid_whole_part(house, kind, of, item);
 }
 
 /* Is a part of the author's called as floors are? Spaces to keep are none. */

@@ -58,8 +58,10 @@ uint32_t tn_form_guard_part(const tn_house_form *form);
 /* The part that a layer of a form is: the first of its name. */
 uint32_t tn_layer_part(const tn_house_form *form, uint32_t layer);
 
-/* The part that a solid is one of: also of a leaf or a pane. Of one that has layers, the part of the first of these,
- * which is what is seen of it. */
+/* The part that a solid is one of: also of a leaf or a pane. */
+uint32_t tn_solid_whole_part(const tn_house *house, tn_solid_kind kind, uint32_t of, uint32_t item);
+
+/* The same, but of one that has layers the part of the first of these, which is what is seen of it. */
 uint32_t tn_solid_made_part(const tn_house *house, tn_solid_kind kind, uint32_t of, uint32_t item);
 
 /* The first material for the part where the section is so: a MATERIAL record, or TN_NO_RECORD. */

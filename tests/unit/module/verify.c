@@ -607,11 +607,40 @@ static void test_forms(void **state)
     expect_form(&plain, &(tn_form_record){.way = 2}, "or without headroom");
 }
 
+/* The form with a classification of these parts. Its own are 7: those of every form, and guards. */
+static void expect_classes(const uint32_t *parts, uint32_t count, const char *code, const char *reason)
+{
+    const tn_cell_rule_record plain = {.kind = TN_CELL_VOID};
+    uint32_t function;
+    tn_builder *builder = builder_of_form(&plain, &(tn_form_record){.classification_count = 1}, &function);
+    for (uint32_t i = 0; i < count; i++)
+        tn_builder_add_CLASS(builder, &(tn_class_record){.part = parts[i], .code = tn_builder_string(builder, code)});
+    tn_builder_add_CLASSIFICATION(builder, &(tn_classification_record){.name = tn_builder_string(builder, "DIN 276"),
+                                                                       .class_count = count});
+    expect(builder, reason ? TN_INVALID : TN_OK, reason);
+}
+
+static void test_classifications(void **state)
+{
+    (void)state;
+    enum { GUARD = TN_OF_COUNT, PORCH, VOID, PAST };
+    const char *none = "classification 0 has a code for what cannot have one";
+    expect_classes((uint32_t[]){TN_OF_WALL, TN_OF_ROOF, GUARD, PORCH}, 4, "330", NULL);
+    expect_classes((uint32_t[]){VOID}, 1, "330", none);
+    expect_classes((uint32_t[]){PAST}, 1, "330", none);
+    expect_classes((uint32_t[]){UINT32_MAX}, 1, "330", none);
+    expect_classes((uint32_t[]){TN_OF_ROOF, TN_OF_WALL}, 2, "330", "classification 0 has a code out of order");
+    expect_classes((uint32_t[]){TN_OF_ROOF, TN_OF_ROOF}, 2, "330", "classification 0 has a code out of order");
+    expect_classes((uint32_t[]){TN_OF_ROOF}, 1, "", "code");
+    expect_classes(NULL, 0, "330", "class");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_forms),
         cmocka_unit_test(test_walks),
+        cmocka_unit_test(test_classifications),
         cmocka_unit_test(test_sample_is_good),
         cmocka_unit_test(test_strings),
         cmocka_unit_test(test_names),
