@@ -18,7 +18,7 @@ help:
 	@echo 'make check-parts build without pictures, OpenMesh, SQLite and CaDiCaL, and test that'
 	@echo 'make package     make a Debian package (into build-package/)'
 	@echo 'make check-package  try that on a clean root (as root, with debootstrap)'
-	@echo 'make check-editor  test the language server and the VS Code extension (needs node and npm)'
+	@echo 'make check-editor  test the language server, the VS Code extension (needs node and npm) and the grammar for tree-sitter (needs tree-sitter)'
 	@echo 'make check-ifc   hold building models to the rules of IFC4 and to web-ifc and IfcOpenShell (node and npm)'
 	@echo 'make check-models  hold models of houses to the Khronos validator and to Blender, where these are installed (npm)'
 	@echo 'make check-report  test the report page in a browser without a screen (chromium)'
@@ -75,6 +75,7 @@ check-package: packages
 
 check-editor: build
 	@cd editors/vscode && npm ci --ignore-scripts --loglevel=error && TARTAN='$(CURDIR)/build/tartan' npm test
+	@TARTAN='$(CURDIR)/build/tartan' NO_COLOR=1 bash tests/cli/tree_sitter.sh || [ $$? -eq 77 ]
 
 check-models: build
 	@tools/check-models build/tartan
