@@ -201,7 +201,7 @@ module.exports = grammar({
     /* ---- forms */
 
     form_body: ($) => seq("{", repeat($._form_clause), "}"),
-    _form_clause: ($) => choice($.storey, $.spine, $.thickness, $.option, $.forbid_options, $.no_cells, $.function, $.opening, $.flight, $.beam, $.face, $.tile, $.way, $.material, $.allow_clause),
+    _form_clause: ($) => choice($.storey, $.spine, $.thickness, $.option, $.forbid_options, $.no_cells, $.function, $.opening, $.flight, $.beam, $.face, $.tile, $.way, $.material, $.classification, $.allow_clause),
     storey: ($) => seq(word("storey"), field("name", $.name), optional($._doc), $._size),
     spine: ($) => seq(word("spine"), $.name),
     thickness: ($) => seq(choice(seq(word("wall"), optional(choice(word("outside"), $.name))), words("partition", "floor", "deck", "roof")), $._size, optional($.layers)),
@@ -221,6 +221,8 @@ module.exports = grammar({
     way: ($) => choice(seq(word("way"), $._size, optional(seq(word("for"), $._names))), seq(words("headroom", "guard"), $._size)),
     material: ($) => seq(word("material"), field("name", $.name), $._doc, optional(seq(word("price"), $._quantity, word("per"), $.name)), word("for"), $._names,
       optional(seq(word("where"), $._options))),
+    classification: ($) => seq(word("classification"), $.string, word("for"), list(",", $.class)),
+    class: ($) => seq(field("name", $.name), field("code", $.string), optional($._doc)),
     tile: ($) => seq(word("tile"), field("name", $.name), optional($._doc), word("for"), $._names, field("body", $.tile_body)),
     tile_body: ($) => seq("{", repeat(choice($.tile_size, $.tile_against, $.tile_item)), "}"),
     tile_size: ($) => seq(words("wide", "deep"), $._sizes),

@@ -25,7 +25,7 @@
 
 [
   "storey" "spine" "wall" "partition" "floor" "deck" "roof" "option" "section" "void" "no" "function" "opening" "flight" "beam" "face"
-  "tile" "way" "headroom" "guard" "material"
+  "tile" "way" "headroom" "guard" "material" "classification"
   "across" "against" "along" "back" "clear" "deep" "for" "front" "glazed" "going" "high" "item" "leafless" "left" "line" "near" "outdoor"
   "outside" "passage" "per" "price" "right" "rise" "sill" "sliding" "span" "symbol" "turn" "under" "up" "wide" "winders"
 ] @keyword
@@ -92,6 +92,7 @@
 (face (name) @label)
 (way (name) @label)
 (material (name) @label)
+(class name: (name) @label)
 (tile (name) @label)
 (tile_against (name) @label)
 (tile_item name: (name) @label)
