@@ -39,7 +39,7 @@ within 200 count "$sheds" -l any-sheds --trays 2..20000 --max-length 20000
 within 100 enumerate "$sheds" -l any-sheds --trays 2..20000 --max-length 20000 -o "$scratch/o.txt"
 within 100 sample "$bench/ten.plan" 40000000 -o "$scratch/o.txt"
 within 60 grow "$stdlib/square.hemls" -n 11 -o "$scratch/o.obj" --each-step
-within 70 grow "$stdlib/square.hemls" -n 8 -o "$scratch/o.svg"
+within 70 grow "$stdlib/square.hemls" -n 9 -o "$scratch/o.svg"
 within 70 grow "$stdlib/square.hemls" -n 8 --subdivide 5 -o "$scratch/o.obj"
 within 150 mesh "$stdlib/primitives.field" --surface torus --grid 1000 -o "$scratch/o.obj"
 within 150 mesh "$stdlib/primitives.field" --surface torus --grid 200 --subdivide 6 -o "$scratch/o.obj"

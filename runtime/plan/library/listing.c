@@ -14,6 +14,7 @@ typedef struct block {
     mpz_t from, to;
     uint64_t plans;
     tn_buffer text, room;
+    char apart[128]; /* threads that append to neighbouring blocks share no line of the cache */
 } block;
 
 /* The blocks of one round, and those of the round before, which are put meanwhile. */
