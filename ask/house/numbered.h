@@ -106,6 +106,11 @@ tn_status tn_numbered_houses_on(tn_numbered *n, const tn_tray *trays, uint32_t l
 tn_status tn_numbered_each(tn_numbered *n, const tn_tray *trays, uint32_t length, const mpz_t from, tn_house_each *each,
                            void *context, tn_error *error);
 
+/* Calls `each` with the houses on a plan from that rank on, until *stop: nothing if they all have lower ones. before:
+ * how many houses are on the plans before; those on this plan are added. */
+tn_status tn_numbered_each_from(tn_numbered *n, const tn_tray *trays, uint32_t length, const mpz_t rank, mpz_t before,
+                                tn_house_each *each, void *context, tn_error *error);
+
 /* What goes through the houses that cannot be counted tray by tray. */
 tn_status tn_numbered_listing(tn_numbered *n, tn_house_listing **listing, tn_error *error);
 

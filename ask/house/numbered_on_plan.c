@@ -135,6 +135,20 @@ tn_status tn_numbered_each(tn_numbered *n, const tn_tray *trays, uint32_t length
                    : tn_plan_houses_each(plan, from, each, context, error);
 }
 
+tn_status tn_numbered_each_from(tn_numbered *n, const tn_tray *trays, uint32_t length, const mpz_t rank, mpz_t before,
+                                tn_house_each *each, void *context, tn_error *error)
+{
+    mpz_t houses, first;
+    mpz_inits(houses, first, NULL);
+    tn_status status = tn_numbered_houses_on(n, trays, length, houses, error);
+    mpz_sub(first, rank, before);
+    if (status == TN_OK && mpz_cmp(first, houses) < 0)
+        status = tn_numbered_each(n, trays, length, first, each, context, error);
+    mpz_add(before, before, houses);
+    mpz_clears(houses, first, NULL);
+    return status;
+}
+
 tn_status tn_numbered_at(tn_numbered *n, const tn_tray *trays, uint32_t length, const mpz_t variant, tn_house *house,
                          tn_error *error)
 {

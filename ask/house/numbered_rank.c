@@ -75,15 +75,8 @@ static tn_status use_plan(tn_numbered *n, void *context, const tn_tray *trays, u
                           tn_error *error)
 {
     stretch *s = context;
-    mpz_t houses, first;
-    mpz_inits(houses, first, NULL);
-    tn_status status = tn_numbered_houses_on(n, trays, length, houses, error);
-    mpz_sub(first, s->next, s->before);
-    if (status == TN_OK && mpz_cmp(first, houses) < 0)
-        status = tn_numbered_each(n, trays, length, first, use_house, s, error);
-    mpz_add(s->before, s->before, houses);
+    tn_status status = tn_numbered_each_from(n, trays, length, s->next, s->before, use_house, s, error);
     *stop = mpz_cmp(s->next, s->to) >= 0;
-    mpz_clears(houses, first, NULL);
     return status;
 }
 

@@ -36,9 +36,8 @@ static void note_end(tn_session *session, const mpz_t kept, const char *what, co
     free(digits);
 }
 
-/* Of so many `what`. */
-static tn_status find_range(tn_session *session, const mpz_t kept, const char *what, const char *from, const char *to,
-                            mpz_t begin, mpz_t end)
+tn_status tn_asked_range(tn_session *session, const mpz_t kept, const char *what, const char *from, const char *to,
+                         mpz_t begin, mpz_t end)
 {
     mpz_t zero;
     mpz_init(zero);
@@ -53,17 +52,6 @@ static tn_status find_range(tn_session *session, const mpz_t kept, const char *w
         mpz_set(begin, end);
     mpz_clear(zero);
     return backwards ? refuse_range(session, from, to) : TN_OK;
-}
-
-tn_status tn_asked_range(tn_session *session, const tn_library *library, const char *from, const char *to, mpz_t begin,
-                         mpz_t end)
-{
-    mpz_t kept;
-    mpz_init(kept);
-    tn_library_kept(library, TN_ALL_LENGTHS, kept);
-    tn_status status = find_range(session, kept, "plans", from, to, begin, end);
-    mpz_clear(kept);
-    return status;
 }
 
 /* How many are given at most. */
@@ -250,12 +238,15 @@ static tn_status enumerate_plans(tn_session *session, const tn_enumerate_request
                                      : tn_session_searched(session, &request->subject, false, &e.ready, &limit);
     if (status != TN_OK)
         return status;
-    mpz_inits(e.rank, e.to, NULL);
-    if (e.ready->library)
-        status = tn_asked_range(session, e.ready->library, request->from, request->to, e.rank, e.to);
+    mpz_t kept;
+    mpz_inits(e.rank, e.to, kept, NULL);
+    if (e.ready->library) {
+        tn_library_kept(e.ready->library, TN_ALL_LENGTHS, kept);
+        status = tn_asked_range(session, kept, "plans", request->from, request->to, e.rank, e.to);
+    }
     if (status == TN_OK)
         status = e.ready->library ? enumerate(&e, answer) : enumerate_searched(&e, &limit, answer);
-    mpz_clears(e.rank, e.to, NULL);
+    mpz_clears(e.rank, e.to, kept, NULL);
     return status;
 }
 
@@ -301,7 +292,7 @@ static tn_status enumerate_rows(tn_session *session, const tn_enumerate_request 
         status = tn_rows_open(&rows, session, e.ready, &request->subject);
     if (status == TN_OK) {
         tn_plan_rows_count(rows.rows, TN_ALL_LENGTHS, all);
-        status = find_range(session, all, "rows of plans", request->from, request->to, e.rank, e.to);
+        status = tn_asked_range(session, all, "rows of plans", request->from, request->to, e.rank, e.to);
     }
     if (status == TN_OK)
         status = list_rows(&e, &rows, all, answer);
@@ -414,30 +405,16 @@ static tn_status give_house(void *context, const tn_house *house, bool *stop, tn
     return *stop ? TN_OK : tn_watch_check(watch, error);
 }
 
-/* The number on its plan of the next house; false: it is not one of the plan's. */
-static bool find_variant(house_list *list, const mpz_t houses)
-{
-    if (is_list_done(list))
-        return false;
-    mpz_sub(list->variant, list->next, list->before);
-    return mpz_cmp(list->variant, houses) < 0;
-}
-
 /* Gives the houses on a plan that are asked for. */
 static tn_status list_plan(tn_numbered *n, void *context, const tn_tray *trays, uint32_t length, bool *stop,
                            tn_error *error)
 {
     house_list *list = context;
-    mpz_t houses, first;
-    mpz_inits(houses, first, NULL);
-    tn_status status = tn_numbered_houses_on(n, trays, length, houses, error);
-    if (status == TN_OK && find_variant(list, houses)) {
-        mpz_set(first, list->variant);
-        status = tn_numbered_each(n, trays, length, first, give_house, list, error);
-    }
-    mpz_add(list->before, list->before, houses); /* those up to the end of this plan */
+    tn_status status = TN_OK;
+    mpz_sub(list->variant, list->next, list->before);
+    if (!is_list_done(list))
+        status = tn_numbered_each_from(n, trays, length, list->next, list->before, give_house, list, error);
     *stop = is_list_done(list);
-    mpz_clears(houses, first, NULL);
     return status;
 }
 

@@ -55,8 +55,8 @@ static char *sample_words(const tn_new_set *what)
     return strdup(text);
 }
 
-/* The set's texts and what decides its plans. */
-static bool describe(tn_job *job, const tn_ready_library *ready, const tn_new_set *what, tn_shard_set *set)
+/* The set's texts and what decides its plans or houses. */
+static bool describe(const tn_new_set *what, const tn_new_set_of *of, tn_shard_set *set)
 {
     const tn_written_settings *written = what->written;
     const tn_plan_settings *plans = what->plans;
@@ -64,22 +64,21 @@ static bool describe(tn_job *job, const tn_ready_library *ready, const tn_new_se
                                  .to = what->to,
                                  .trays_given = plans->trays.given,
                                  .trays_min = plans->trays.low,
-                                 .trays_max = plans->trays.high};
+                                 .trays_max = plans->trays.high,
+                                 .wheres = plans->wheres.items,
+                                 .where_count = of->task == TN_TASK_HOUSES ? plans->wheres.count : 0};
+    set->task = of->task;
     set->folder = strdup(written->output);
-    set->library = strdup(tn_text(job->opened.module, ready->record->name));
+    set->library = strdup(of->library);
     set->rules_path = strdup(what->path);
     set->command = what->sampled ? sample_words(what) : tn_enumerated_words(&asked);
-    set->format = written->format ? (tn_plan_format)written->format : TN_FORMAT_LINES;
+    set->format = written->format ? (tn_plan_format)written->format : of->format;
     set->compressed = what->compress;
     set->row_group = (uint32_t)written->row_group.value;
     set->plan_lines = written->plan_lines;
-    set->options = (tn_library_options){.max_states = (uint32_t)plans->max_states.value,
-                                        .override_trays = plans->trays.given,
-                                        .trays_min = (uint32_t)plans->trays.low,
-                                        .trays_max = (uint32_t)plans->trays.high,
-                                        .max_length = (uint32_t)plans->max_length.value};
-    tn_library_hash(ready->library, set->library_hash);
-    snprintf(set->schema_hash, sizeof set->schema_hash, "%016" PRIx64, tn_pack_schema_hash(ready->schema));
+    set->options = tn_job_library_options(plans);
+    tn_library_hash(of->plans, set->library_hash);
+    snprintf(set->schema_hash, sizeof set->schema_hash, "%016" PRIx64, tn_pack_schema_hash(of->schema));
     return set->folder && set->library && set->rules_path && set->command;
 }
 
@@ -99,16 +98,42 @@ tn_status tn_new_set_create(tn_job *job, tn_shard_set *set, tn_error *error)
     return status;
 }
 
-static void tell(tn_job *job, const tn_shard_set *set)
+static void tell(tn_job *job, const tn_shard_set *set, const char *things)
 {
-    mpz_t plans;
-    mpz_init(plans);
-    tn_shard_set_plans(set, plans);
-    char *digits = tn_digits(plans, true);
-    tn_job_note(job, "%.200s has %u shard%s for %.60s plans; `tartan shards run %.100s` writes them", set->folder,
-                set->count, set->count == 1 ? "" : "s", digits ? digits : "?", set->folder);
+    mpz_t number;
+    mpz_init(number);
+    tn_shard_set_plans(set, number);
+    char *digits = tn_digits(number, true);
+    tn_job_note(job, "%.200s has %u shard%s for %.60s %s; `tartan shards run %.100s` writes them", set->folder,
+                set->count, set->count == 1 ? "" : "s", digits ? digits : "?", things, set->folder);
     free(digits);
-    mpz_clear(plans);
+    mpz_clear(number);
+}
+
+static tn_status make_set(tn_job *job, const tn_new_set *what, const tn_new_set_of *of, tn_shard_set *set,
+                          const mpz_t from, const mpz_t to, tn_error *error)
+{
+    tn_status status = describe(what, of, set) ? tn_shard_set_divide(set, from, to, what->shards, what->each, error)
+                                               : tn_fail_memory(error);
+    if (status == TN_OK && what->sampled)
+        status = tn_shard_set_sample(set, to, what->sample, what->seed, DRAWN_MEMORY, tn_interrupt_waiting(), error);
+    return status == TN_OK ? tn_new_set_create(job, set, error) : status;
+}
+
+void tn_new_set_make(tn_job *job, const tn_new_set *what, const tn_new_set_of *of)
+{
+    tn_shard_set set = {0};
+    tn_error error;
+    mpz_t from, to;
+    mpz_inits(from, to, NULL);
+    if (tn_job_answered(job, tn_asked_range(&job->session, of->all, of->things, what->from, what->to, from, to))) {
+        if (make_set(job, what, of, &set, from, to, &error) == TN_OK)
+            tell(job, &set, of->things);
+        else
+            tn_job_fail(job, &error);
+    }
+    tn_shard_set_clear(&set);
+    mpz_clears(from, to, NULL);
 }
 
 /* Workers draw the numbers of plans, each as likely as each. */
@@ -127,26 +152,18 @@ static bool can_draw(tn_job *job, const tn_ready_library *ready, const tn_new_se
 
 void tn_job_new_set(tn_job *job, const tn_ready_library *ready, const tn_new_set *what)
 {
-    tn_shard_set set = {0};
-    tn_error error;
-    mpz_t from, to;
+    mpz_t all;
     if (!can_draw(job, ready, what))
         return;
-    mpz_inits(from, to, NULL);
-    if (tn_job_answered(job, tn_asked_range(&job->session, ready->library, what->from, what->to, from, to))) {
-        tn_status status = describe(job, ready, what, &set)
-                               ? tn_shard_set_divide(&set, from, to, what->shards, what->each, &error)
-                               : tn_fail_memory(&error);
-        if (status == TN_OK && what->sampled)
-            status =
-                tn_shard_set_sample(&set, to, what->sample, what->seed, DRAWN_MEMORY, tn_interrupt_waiting(), &error);
-        if (status == TN_OK)
-            status = tn_new_set_create(job, &set, &error);
-        if (status == TN_OK)
-            tell(job, &set);
-        else
-            tn_job_fail(job, &error);
-    }
-    tn_shard_set_clear(&set);
-    mpz_clears(from, to, NULL);
+    mpz_init(all);
+    tn_library_kept(ready->library, TN_ALL_LENGTHS, all);
+    const tn_new_set_of of = {.task = TN_TASK_ENUMERATE,
+                              .format = TN_FORMAT_LINES,
+                              .things = "plans",
+                              .library = tn_text(job->opened.module, ready->record->name),
+                              .plans = ready->library,
+                              .schema = ready->schema,
+                              .all = all};
+    tn_new_set_make(job, what, &of);
+    mpz_clear(all);
 }

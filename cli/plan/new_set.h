@@ -27,7 +27,21 @@ bool tn_new_set_fits(tn_job *job, const tn_new_set *what);
 /* Makes a set that is described, with the module that the job has open: just compiled, or the bytes of its file. */
 tn_status tn_new_set_create(tn_job *job, tn_shard_set *set, tn_error *error);
 
+/* What has the ranks that the shards divide: so many `things` ("plans", "houses") of a library. format: what they are
+ * written as if the command does not say. */
+typedef struct tn_new_set_of {
+    tn_shard_task task;
+    tn_plan_format format;
+    const char *things, *library;
+    const tn_library *plans;
+    const tn_schema *schema;
+    mpz_srcptr all;
+} tn_new_set_of;
+
 /* Makes the set, and says how large it is. */
+void tn_new_set_make(tn_job *job, const tn_new_set *what, const tn_new_set_of *of);
+
+/* The same, of the plans of a library. */
 void tn_job_new_set(tn_job *job, const tn_ready_library *ready, const tn_new_set *what);
 
 #endif

@@ -2,7 +2,6 @@
 #include "cli/shards/shards.h"
 
 #include <errno.h>
-#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,12 +9,10 @@
 #include "cli/common/progress.h"
 #include "cli/plan/house_tables.h"
 #include "driver/house/judge.h"
-#include "driver/open/digits.h"
 #include "driver/shards/gather.h"
 #include "driver/shards/record.h"
 #include "runtime/base/file.h"
 #include "runtime/house/house.h"
-#include "runtime/plan/text/pack.h"
 
 bool tn_shards_of_houses(const tn_job *job, const char *library)
 {
@@ -83,72 +80,20 @@ static bool fits(tn_job *job, const tn_new_set *what)
     return false;
 }
 
-static bool describe(const tn_new_set *what, const tn_numbered *n, tn_shard_set *set)
-{
-    const tn_plan_settings *plans = what->plans;
-    const tn_enumerated asked = {.from = what->from,
-                                 .to = what->to,
-                                 .trays_given = plans->trays.given,
-                                 .trays_min = plans->trays.low,
-                                 .trays_max = plans->trays.high,
-                                 .wheres = plans->wheres.items,
-                                 .where_count = plans->wheres.count};
-    set->task = TN_TASK_HOUSES;
-    set->folder = strdup(what->written->output);
-    set->library = strdup(plans->library);
-    set->rules_path = strdup(what->path);
-    set->command = tn_enumerated_words(&asked);
-    set->format = what->written->format ? (tn_plan_format)what->written->format : TN_FORMAT_CSV;
-    set->options = tn_job_library_options(plans);
-    tn_library_hash(n->plans, set->library_hash);
-    snprintf(set->schema_hash, sizeof set->schema_hash, "%016" PRIx64, tn_pack_schema_hash(n->schema));
-    return set->folder && set->library && set->rules_path && set->command;
-}
-
-/* The ranks that are asked for, of all houses. */
-static void find_range(const tn_numbered *n, const tn_new_set *what, mpz_t from, mpz_t to)
-{
-    tn_houses_count(n->all, TN_ALL_LENGTHS, to);
-    mpz_t end;
-    mpz_init_set(end, to);
-    if (what->to && *what->to && mpz_set_str(end, what->to, 10) == 0 && mpz_cmp(end, to) < 0)
-        mpz_set(to, end);
-    if (!what->from || !*what->from || mpz_set_str(from, what->from, 10) != 0)
-        mpz_set_ui(from, 0);
-    if (mpz_cmp(from, to) > 0)
-        mpz_set(from, to);
-    mpz_clear(end);
-}
-
-static void tell(tn_job *job, const tn_shard_set *set)
-{
-    mpz_t houses;
-    mpz_init(houses);
-    tn_shard_set_plans(set, houses);
-    char *digits = tn_digits(houses, true);
-    tn_job_note(job, "%.200s has %u shard%s for %.60s houses; `tartan shards run %.100s` writes them", set->folder,
-                set->count, set->count == 1 ? "" : "s", digits ? digits : "?", set->folder);
-    free(digits);
-    mpz_clear(houses);
-}
-
 static void make_set(tn_job *job, const tn_new_set *what, const tn_numbered *n)
 {
-    tn_shard_set set = {0};
-    tn_error error;
-    mpz_t from, to;
-    mpz_inits(from, to, NULL);
-    find_range(n, what, from, to);
-    tn_status status = describe(what, n, &set) ? tn_shard_set_divide(&set, from, to, what->shards, what->each, &error)
-                                               : tn_fail_memory(&error);
-    if (status == TN_OK)
-        status = tn_new_set_create(job, &set, &error);
-    if (status == TN_OK)
-        tell(job, &set);
-    else
-        tn_job_fail(job, &error);
-    tn_shard_set_clear(&set);
-    mpz_clears(from, to, NULL);
+    mpz_t all;
+    mpz_init(all);
+    tn_houses_count(n->all, TN_ALL_LENGTHS, all);
+    const tn_new_set_of of = {.task = TN_TASK_HOUSES,
+                              .format = TN_FORMAT_CSV,
+                              .things = "houses",
+                              .library = what->plans->library,
+                              .plans = n->plans,
+                              .schema = n->schema,
+                              .all = all};
+    tn_new_set_make(job, what, &of);
+    mpz_clear(all);
 }
 
 void tn_shards_new_houses(tn_job *job, const tn_new_set *what)

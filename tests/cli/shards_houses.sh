@@ -111,6 +111,7 @@ for table in houses rooms faces; do
 done
 golden parquet "tartan shards cat $scratch/some.parquet.set -o $scratch/x.parquet"
 golden parquet_merged "tartan shards merge $scratch/some.parquet.set -o $scratch/x.sqlite"
+golden backwards "tartan shards new cabins.plan --library cottages -o x.set --shards 2 --from 9 --to 4"
 golden lines "tartan shards new cabins.plan --library cottages -o x.set --shards 2 --format lines"
 golden compressed "tartan shards new cabins.plan --library cottages -o x.set --shards 2 --compress"
 golden sampled "tartan shards new cabins.plan --library cottages -o x.set --shards 2 --sample 9"
