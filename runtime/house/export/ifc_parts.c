@@ -93,29 +93,37 @@ static unsigned stand(tn_ifc *ifc, const tn_solid *s, unsigned within, unsigned 
 
 /* ---- posts and beams */
 
+/* One of the two: as long as `length`, and across that by two others. */
+static void put_bar(tn_ifc *ifc, const tn_solid *s, const tn_ifc_part *part, const char *key, const double across[2],
+                    double length, tn_stepfile_list *list)
+{
+    bool post = s->kind == TN_SOLID_POST;
+    tn_ifc_part placed = *part;
+    placed.shape = stand(ifc, s, ifc->placement, &placed.where);
+    unsigned bar = tn_ifc_put(ifc, &placed, key);
+    const tn_ifc_property bears = tn_ifc_truth("LoadBearing", true);
+    const tn_ifc_quantity quantities[] = {{"Length", 'L', length},
+                                          {"CrossSectionArea", 'A', across[0] * across[1] / 1e18},
+                                          {"OuterSurfaceArea", 'A', 2 * (across[0] + across[1]) * length / 1e18},
+                                          {"GrossVolume", 'V', tn_ifc_box_volume(&s->at)},
+                                          {"NetVolume", 'V', tn_ifc_box_volume(&s->at)}};
+    tn_ifc_properties(ifc, bar, post ? "Pset_ColumnCommon" : "Pset_BeamCommon", part->type_name, &bears, 1);
+    tn_ifc_quantities(ifc, bar, post ? "Qto_ColumnBaseQuantities" : "Qto_BeamBaseQuantities", key, quantities, 5);
+    tn_ifc_make_of(ifc, s, bar);
+    tn_stepfile_list_add(list, bar);
+}
+
 static void put_post(tn_ifc *ifc, const tn_solid *s, tn_stepfile_list *list)
 {
-    char key[TN_IFC_FACE_KEY], where[TN_IFC_CELL_KEY + 20];
+    char key[TN_IFC_FACE_KEY], where[TN_IFC_CELL_KEY + 20], type[100];
     const tn_box *b = &s->at;
-    double x = (double)(b->x1 - b->x0), y = (double)(b->y1 - b->y0), z = (double)(b->z1 - b->z0);
-    corner_key(ifc, b->x0 + (b->x1 - b->x0) / 2, b->y0 + (b->y1 - b->y0) / 2, where, sizeof where);
+    int64_t x = b->x1 - b->x0, y = b->y1 - b->y0;
+    corner_key(ifc, b->x0 + x / 2, b->y0 + y / 2, where, sizeof where);
     snprintf(key, sizeof key, "post %s", where);
-    char type[100];
-    tn_ifc_sized_name(ifc, "post", b->x1 - b->x0 < b->y1 - b->y0 ? b->x1 - b->x0 : b->y1 - b->y0, type, sizeof type);
-    tn_ifc_part part = {
+    tn_ifc_sized_name(ifc, "post", x < y ? x : y, type, sizeof type);
+    const tn_ifc_part part = {
         .entity = "IFCCOLUMN", .tail = ",.COLUMN.", .name = tn_solid_kind_text(s->kind), .type_name = type};
-    part.shape = stand(ifc, s, ifc->placement, &part.where);
-    unsigned post = tn_ifc_put(ifc, &part, key);
-    const tn_ifc_property bears = tn_ifc_truth("LoadBearing", true);
-    const tn_ifc_quantity quantities[] = {{"Length", 'L', z},
-                                          {"CrossSectionArea", 'A', x * y / 1e18},
-                                          {"OuterSurfaceArea", 'A', 2 * (x + y) * z / 1e18},
-                                          {"GrossVolume", 'V', tn_ifc_box_volume(b)},
-                                          {"NetVolume", 'V', tn_ifc_box_volume(b)}};
-    tn_ifc_properties(ifc, post, "Pset_ColumnCommon", type, &bears, 1);
-    tn_ifc_quantities(ifc, post, "Qto_ColumnBaseQuantities", key, quantities, 5);
-    tn_ifc_make_of(ifc, s, post);
-    tn_stepfile_list_add(list, post);
+    put_bar(ifc, s, &part, key, (double[]){(double)x, (double)y}, (double)(b->z1 - b->z0), list);
 }
 
 static void put_beam(tn_ifc *ifc, const tn_solid *s, tn_stepfile_list *list)
@@ -123,25 +131,13 @@ static void put_beam(tn_ifc *ifc, const tn_solid *s, tn_stepfile_list *list)
     char key[TN_IFC_FACE_KEY], where[TN_IFC_CELL_KEY + 20];
     const tn_box *b = &s->at;
     const char *name = tn_text(ifc->house->form->module, tn_form_beam(ifc->house->form, s->item)->name);
-    bool in_x = b->x1 - b->x0 > b->y1 - b->y0;
-    double length = (double)(in_x ? b->x1 - b->x0 : b->y1 - b->y0),
-           wide = (double)(in_x ? b->y1 - b->y0 : b->x1 - b->x0), high = (double)(b->z1 - b->z0);
-    corner_key(ifc, in_x ? b->x0 : b->x0 + (b->x1 - b->x0) / 2, in_x ? b->y0 + (b->y1 - b->y0) / 2 : b->y0, where,
-               sizeof where);
+    int64_t x = b->x1 - b->x0, y = b->y1 - b->y0;
+    bool in_x = x > y;
+    corner_key(ifc, in_x ? b->x0 : b->x0 + x / 2, in_x ? b->y0 + y / 2 : b->y0, where, sizeof where);
     snprintf(key, sizeof key, "beam %s", where);
-    tn_ifc_part part = {.entity = "IFCBEAM", .tail = ",.BEAM.", .name = name, .type_name = name};
-    part.shape = stand(ifc, s, ifc->placement, &part.where);
-    unsigned beam = tn_ifc_put(ifc, &part, key);
-    const tn_ifc_property bears = tn_ifc_truth("LoadBearing", true);
-    const tn_ifc_quantity quantities[] = {{"Length", 'L', length},
-                                          {"CrossSectionArea", 'A', wide * high / 1e18},
-                                          {"OuterSurfaceArea", 'A', 2 * (wide + high) * length / 1e18},
-                                          {"GrossVolume", 'V', tn_ifc_box_volume(b)},
-                                          {"NetVolume", 'V', tn_ifc_box_volume(b)}};
-    tn_ifc_properties(ifc, beam, "Pset_BeamCommon", name, &bears, 1);
-    tn_ifc_quantities(ifc, beam, "Qto_BeamBaseQuantities", key, quantities, 5);
-    tn_ifc_make_of(ifc, s, beam);
-    tn_stepfile_list_add(list, beam);
+    const tn_ifc_part part = {.entity = "IFCBEAM", .tail = ",.BEAM.", .name = name, .type_name = name};
+    put_bar(ifc, s, &part, key, (double[]){(double)(in_x ? y : x), (double)(b->z1 - b->z0)}, (double)(in_x ? x : y),
+            list);
 }
 
 /* ---- guards and furniture */

@@ -29,6 +29,20 @@ typedef struct tn_ifc_prisms {
     double volume, plan;
 } tn_ifc_prisms;
 
+static tn_solid solid_of(const tn_prism *prism)
+{
+    return (tn_solid){.kind = prism->kind, .of = prism->of, .item = prism->item};
+}
+
+/* Writes it as an element, which it is said to be, placed within another. */
+static unsigned put_part(tn_ifc *ifc, const tn_ifc_prisms *prisms, tn_ifc_part part, unsigned within, const char *key)
+{
+    part.name = tn_solid_kind_text(prisms->first->kind);
+    part.shape = prisms->shape;
+    part.where = tn_stepfile_placement(&ifc->step, within, 0, 0, 0);
+    return tn_ifc_put(ifc, &part, key);
+}
+
 /* False if the part begins with a prism before. */
 static bool take_part(tn_ifc *ifc, size_t number, tn_ifc_prisms *part)
 {
@@ -38,7 +52,8 @@ static bool take_part(tn_ifc *ifc, size_t number, tn_ifc_prisms *part)
     for (size_t i = 0; i < number; i++)
         if (is_part(&solids->prisms[i], part->first))
             return false;
-    tn_ifc_look_as(ifc, &(tn_solid){.kind = part->first->kind, .of = part->first->of, .item = part->first->item});
+    const tn_solid solid = solid_of(part->first);
+    tn_ifc_look_as(ifc, &solid);
     for (size_t i = number; i < solids->prism_count; i++) {
         tn_block_corner corners[TN_FACET_CORNERS], flat[TN_FACET_CORNERS];
         if (!is_part(&solids->prisms[i], part->first))
@@ -62,19 +77,15 @@ static bool take_part(tn_ifc *ifc, size_t number, tn_ifc_prisms *part)
 static void put_gable(tn_ifc *ifc, const tn_ifc_prisms *gable, tn_stepfile_list *list)
 {
     const tn_prism *first = gable->first;
+    const tn_solid solid = solid_of(first);
     const char *name = tn_solid_kind_text(first->kind);
     char key[TN_IFC_CELL_KEY + TN_IFC_FACE_KEY + 10], cell[TN_IFC_CELL_KEY], face[TN_IFC_FACE_KEY] = "";
     tn_ifc_cell_key(ifc, first->of, cell);
     if (first->item != TN_NO_FACE)
         tn_ifc_face_key(ifc, first->item, face);
     snprintf(key, sizeof key, "gable %s, %s", cell, face);
-    const tn_ifc_part part = {.entity = "IFCWALL",
-                              .tail = ",.SOLIDWALL.",
-                              .name = name,
-                              .type_name = name,
-                              .shape = gable->shape,
-                              .where = tn_stepfile_placement(&ifc->step, ifc->placement, 0, 0, 0)};
-    unsigned wall = tn_ifc_put(ifc, &part, key);
+    const tn_ifc_part part = {.entity = "IFCWALL", .tail = ",.SOLIDWALL.", .type_name = name};
+    unsigned wall = put_part(ifc, gable, part, ifc->placement, key);
     const tn_ifc_quantity quantities[] = {{"GrossFootprintArea", 'A', gable->plan},
                                           {"GrossVolume", 'V', gable->volume},
                                           {"NetVolume", 'V', gable->volume}};
@@ -83,7 +94,7 @@ static void put_gable(tn_ifc *ifc, const tn_ifc_prisms *gable, tn_stepfile_list 
         external = tn_ifc_truth("IsExternal", tn_face_is_outer(ifc->house, &ifc->house->faces[first->item]));
     tn_ifc_properties(ifc, wall, "Pset_WallCommon", name, &external, external.name != NULL);
     tn_ifc_quantities(ifc, wall, "Qto_WallBaseQuantities", key, quantities, 3);
-    tn_ifc_make_of(ifc, &(tn_solid){.kind = first->kind, .of = first->of, .item = first->item}, wall);
+    tn_ifc_make_of(ifc, &solid, wall);
     tn_stepfile_list_add(list, wall);
 }
 
@@ -147,18 +158,14 @@ static void put_slab(tn_ifc *ifc, const tn_ifc_prisms *slab, tn_ifc_roof *roof)
 {
     const char *name = tn_solid_kind_text(TN_SOLID_ROOF);
     const tn_prism *first = slab->first;
+    const tn_solid solid = solid_of(first);
     char key[TN_IFC_CELL_KEY + 40], cell[TN_IFC_CELL_KEY], type[100];
     double rise = tn_fraction_value(first->rise), longer = sqrt(1 + rise * rise);
     tn_ifc_cell_key(ifc, first->of, cell);
     snprintf(key, sizeof key, "slab %zu of roof over %s", first->plane, cell);
     tn_ifc_sized_name(ifc, name, ifc->house->form->record->roof, type, sizeof type);
-    const tn_ifc_part part = {.entity = "IFCSLAB",
-                              .tail = ",.ROOF.",
-                              .name = name,
-                              .type_name = type,
-                              .shape = slab->shape,
-                              .where = tn_stepfile_placement(&ifc->step, roof->where, 0, 0, 0)};
-    unsigned made = tn_ifc_put(ifc, &part, key);
+    const tn_ifc_part part = {.entity = "IFCSLAB", .tail = ",.ROOF.", .type_name = type};
+    unsigned made = put_part(ifc, slab, part, roof->where, key);
     const tn_ifc_property external = tn_ifc_truth("IsExternal", true);
     const tn_ifc_quantity quantities[] = {{"Width", 'L', (double)ifc->house->form->record->roof / longer},
                                           {"GrossArea", 'A', slab->plan * longer},
@@ -167,7 +174,7 @@ static void put_slab(tn_ifc *ifc, const tn_ifc_prisms *slab, tn_ifc_roof *roof)
                                           {"NetVolume", 'V', slab->volume}};
     tn_ifc_properties(ifc, made, "Pset_SlabCommon", type, &external, 1);
     tn_ifc_quantities(ifc, made, "Qto_SlabBaseQuantities", key, quantities, 5);
-    tn_ifc_make_of(ifc, &(tn_solid){.kind = first->kind, .of = first->of, .item = first->item}, made);
+    tn_ifc_make_of(ifc, &solid, made);
     tn_stepfile_list_add(&roof->slabs, made);
     roof->area += slab->plan * longer;
     roof->plan += slab->plan;
