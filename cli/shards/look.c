@@ -64,9 +64,8 @@ static void count_held(tn_job *job, const tn_shard_set *set, uint32_t shard, cou
         return;
     }
     c->there++;
-    c->bytes += record.bytes;
-    for (size_t i = 0; i < TN_HOUSE_TABLES - 1; i++)
-        c->bytes += record.others[i].bytes;
+    for (uint32_t i = 0; i < tn_shard_files(set); i++)
+        c->bytes += record.files[i].bytes;
     c->unread += record.unread;
     if (tn_shard_set_answers(set))
         return;

@@ -75,13 +75,19 @@ static void write_read(const tn_shard_read *read, tn_json *json)
     tn_json_list_end(json);
 }
 
+static void write_file(const tn_shard_file *file, tn_json *json)
+{
+    tn_json_count(json, "bytes", file->bytes);
+    tn_json_string(json, "hash", file->hash);
+}
+
+/* The files behind the first. */
 static void write_others(const tn_shard_record *record, tn_json *json)
 {
     tn_json_list(json, "others");
-    for (size_t i = 0; i < TN_HOUSE_TABLES - 1; i++) {
+    for (size_t i = 1; i < TN_HOUSE_TABLES; i++) {
         tn_json_object(json, NULL);
-        tn_json_count(json, "bytes", record->others[i].bytes);
-        tn_json_string(json, "hash", record->others[i].hash);
+        write_file(&record->files[i], json);
         tn_json_object_end(json);
     }
     tn_json_list_end(json);
@@ -95,8 +101,7 @@ static bool write_record(const tn_shard_set *set, uint32_t shard, const tn_shard
     tn_json_whole(&json, "tartan_record", RECORD_VERSION);
     tn_json_string(&json, "set", set->hash);
     tn_json_count(&json, "shard", shard);
-    tn_json_count(&json, "bytes", record->bytes);
-    tn_json_string(&json, "hash", record->hash);
+    write_file(&record->files[0], &json);
     if (tn_shard_set_houses(set))
         write_others(record, &json);
     if (read)
@@ -132,12 +137,12 @@ static bool parse_number(const json_t *object, const char *key, uint64_t *number
     return json_is_integer(value) && json_integer_value(value) >= 0;
 }
 
-static bool parse_file(const json_t *json, uint64_t *bytes, char hash[33])
+static bool parse_file(const json_t *json, tn_shard_file *file)
 {
-    const char *said = json_string_value(json_object_get(json, "hash"));
-    bool whole = parse_number(json, "bytes", bytes) && said && strlen(said) == 32;
+    const char *hash = json_string_value(json_object_get(json, "hash"));
+    bool whole = parse_number(json, "bytes", &file->bytes) && hash && strlen(hash) == 32;
     if (whole)
-        memcpy(hash, said, 33);
+        memcpy(file->hash, hash, 33);
     return whole;
 }
 
@@ -145,15 +150,15 @@ static bool parse_others(const json_t *json, tn_shard_record *record)
 {
     const json_t *others = json_object_get(json, "others");
     bool whole = json_array_size(others) == TN_HOUSE_TABLES - 1;
-    for (size_t i = 0; whole && i < TN_HOUSE_TABLES - 1; i++)
-        whole = parse_file(json_array_get(others, i), &record->others[i].bytes, record->others[i].hash);
+    for (size_t i = 1; whole && i < TN_HOUSE_TABLES; i++)
+        whole = parse_file(json_array_get(others, i - 1), &record->files[i]);
     return whole;
 }
 
 static bool parse_record(const tn_shard_set *set, const json_t *json, tn_shard_record *record)
 {
     *record = (tn_shard_record){0};
-    bool whole = parse_file(json, &record->bytes, record->hash);
+    bool whole = parse_file(json, &record->files[0]);
     if (whole && tn_shard_set_houses(set))
         whole = parse_others(json, record);
     if (whole && tn_shard_set_answers(set))
@@ -249,14 +254,6 @@ tn_status tn_shard_read_of(const tn_shard_set *set, uint32_t shard, tn_shard_rea
     return status;
 }
 
-/* What the record says of one of the shard's files. */
-static tn_shard_file file_of(const tn_shard_record *record, uint32_t file)
-{
-    tn_shard_file of = {.bytes = record->bytes};
-    memcpy(of.hash, record->hash, sizeof of.hash);
-    return file > 0 ? record->others[file - 1] : of;
-}
-
 /* ", in rooms" of a shard of several files. */
 static const char *in_table(const tn_shard_set *set, uint32_t file, char text[40])
 {
@@ -286,7 +283,7 @@ static tn_status file_done(const tn_shard_set *set, uint32_t shard, uint32_t fil
                            : tn_shard_wrong(set, shard, error, "lacks its table of %s",
                                             tn_house_table_name((tn_house_table)file));
     else if (status == TN_OK)
-        status = compare_size(set, shard, file, (uint64_t)known.st_size, file_of(record, file).bytes, error);
+        status = compare_size(set, shard, file, (uint64_t)known.st_size, record->files[file].bytes, error);
     free(path);
     return status;
 }
@@ -303,13 +300,14 @@ tn_status tn_shard_done(const tn_shard_set *set, uint32_t shard, tn_error *error
 static tn_status file_same(const tn_shard_set *set, uint32_t shard, uint32_t file, const tn_shard_record *record,
                            tn_error *error)
 {
-    tn_shard_file found, wanted = file_of(record, file);
+    const tn_shard_file *wanted = &record->files[file];
+    tn_shard_file found;
     char where[40];
     char *path = tn_shard_file_path(set, shard, file);
     tn_status status = path ? tn_hash_file(path, found.hash, &found.bytes, error) : tn_fail_memory(error);
     if (status == TN_OK)
-        status = compare_size(set, shard, file, found.bytes, wanted.bytes, error);
-    if (status == TN_OK && strcmp(found.hash, wanted.hash) != 0)
+        status = compare_size(set, shard, file, found.bytes, wanted->bytes, error);
+    if (status == TN_OK && strcmp(found.hash, wanted->hash) != 0)
         status = tn_shard_wrong(set, shard, error, "was changed after it was written: its hash is another%s",
                                 in_table(set, file, where));
     free(path);
@@ -336,9 +334,8 @@ tn_status tn_shard_record_files(const tn_shard_set *set, uint32_t shard, tn_shar
     tn_status status = TN_OK;
     for (uint32_t i = 0; status == TN_OK && i < tn_shard_files(set); i++) {
         char *path = tn_shard_file_path(set, shard, i);
-        char *hash = i > 0 ? record->others[i - 1].hash : record->hash;
-        uint64_t *bytes = i > 0 ? &record->others[i - 1].bytes : &record->bytes;
-        status = path ? tn_hash_file(path, hash, bytes, error) : tn_fail_memory(error);
+        tn_shard_file *file = &record->files[i];
+        status = path ? tn_hash_file(path, file->hash, &file->bytes, error) : tn_fail_memory(error);
         free(path);
     }
     return status;

@@ -14,11 +14,9 @@ typedef struct tn_shard_file {
     char hash[33];
 } tn_shard_file;
 
-/* others: of houses, the files of rooms and of faces. */
+/* files: as many as tn_shard_files says. */
 typedef struct tn_shard_record {
-    uint64_t bytes;
-    char hash[33];
-    tn_shard_file others[TN_HOUSE_TABLES - 1];
+    tn_shard_file files[TN_HOUSE_TABLES];
     uint64_t lines, unread; /* answers: of the piece, and plans of it that could not be read */
 } tn_shard_record;
 

@@ -428,7 +428,7 @@ static tn_status count_before(const tn_shard_set *set, uint32_t shard, uint64_t 
     return fits ? TN_OK : tn_fail(error, TN_LIMIT, E_SHARD_TOO_MANY, "more houses than the rows of tables can count");
 }
 
-static tn_status shard_houses(const tn_shard_set *set, const tn_shard_houses *houses, const shard_writing_now *now,
+static tn_status shard_houses(const tn_shard_set *set, const tn_shard_houses *houses, shard_writing_now *now,
                               tn_shard_record *record, tn_error *error)
 {
     uint64_t before, written = 0;
@@ -437,7 +437,7 @@ static tn_status shard_houses(const tn_shard_set *set, const tn_shard_houses *ho
     tn_status status = path ? count_before(set, now->shard, &before, error) : tn_fail_memory(error);
     if (status == TN_OK)
         status = houses->write(houses->context, path, set->bounds[now->shard], set->bounds[now->shard + 1], before,
-                               look_around, (void *)(uintptr_t)now, &written, error);
+                               look_around, now, &written, error);
     mpz_init(wanted);
     tn_shard_plans(set, now->shard, wanted);
     if (status == TN_OK && mpz_cmp_ui(wanted, written) != 0)
@@ -493,7 +493,7 @@ static tn_status write_file(const running *run, uint32_t shard, tn_claim *claim,
 static tn_status write_houses(running *run, uint32_t shard, tn_claim *claim, tn_error *error)
 {
     const tn_shards_job *job = run->job;
-    const shard_writing_now now = {shard, claim, job->stale, job->watch, NULL};
+    shard_writing_now now = {shard, claim, job->stale, job->watch, NULL};
     tn_shard_record record = {0};
     tn_status status = shard_houses(job->set, job->houses, &now, &record, error);
     return status == TN_OK ? tn_shard_record_write(job->set, shard, &record, NULL, error) : status;
@@ -512,7 +512,7 @@ static tn_status write_shard(running *run, uint32_t shard, tn_claim *claim, tn_e
     if (status == TN_OK) {
         const tn_seen_bytes written = tn_hashing_seen(hashing);
         status = write_file(run, shard, claim, &written, read, error);
-        tn_hashing_end(hashing, record.hash, &record.bytes);
+        tn_hashing_end(hashing, record.files[0].hash, &record.files[0].bytes);
     }
     if (status == TN_OK)
         status = tn_shard_record_write(run->job->set, shard, &record, read, error);
