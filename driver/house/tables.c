@@ -329,21 +329,10 @@ typedef struct room {
     tn_int128 gross, net, glazed;
 } room;
 
-static tn_int128 area_of(tn_rectangle r)
-{
-    return (tn_int128)(r.x1 - r.x0) * (r.y1 - r.y0);
-}
-
 static void measure_room(const tn_house *house, const uint32_t *rooms, uint32_t first, room *r)
 {
     *r = (room){.first = first, .glazed = tn_room_glazing(house, rooms, first)};
-    for (uint32_t i = first; i < house->cell_count; i++) {
-        if (rooms[i] != first || house->cells[i].open)
-            continue;
-        r->cells++;
-        r->gross += area_of(house->cells[i].at);
-        r->net += area_of(tn_cell_clear(house, i));
-    }
+    r->cells = tn_room_areas(house, rooms, first, &r->gross, &r->net);
 }
 
 static const char *cell_function(const tn_house *house, uint32_t cell)

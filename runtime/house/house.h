@@ -458,6 +458,10 @@ bool tn_face_hangs(const tn_bearing *bearing, const tn_face *face, int64_t *from
  * caller frees *rooms. */
 tn_status tn_house_rooms(const tn_house *house, uint32_t **rooms, tn_error *error);
 
+/* The areas of a room (its lowest cell) between the planes of its walls, and between the walls, in square nanometres;
+ * voids do not count. Returns how many cells do. */
+uint32_t tn_room_areas(const tn_house *house, const uint32_t *rooms, uint32_t room, tn_int128 *gross, tn_int128 *net);
+
 /* The area of the glazed openings in the outside faces of a room (its lowest cell), in square nanometres. */
 tn_int128 tn_face_glazing(const tn_house *house, const tn_face *face); /* of one face: that of its sheltered cell */
 tn_int128 tn_room_glazing(const tn_house *house, const uint32_t *rooms, uint32_t room);

@@ -1,5 +1,5 @@
 /* Finds the rooms of a house: cells of one function that open faces join, with the voids above them; measures their
- * windows. */
+ * areas and windows. */
 #include <stdlib.h>
 
 #include "runtime/house/house.h"
@@ -49,6 +49,21 @@ tn_int128 tn_face_glazing(const tn_house *house, const tn_face *face)
     const tn_opening_record *opening = tn_form_opening(house->form, face->kind);
     bool glazed = opening && opening->flags & TN_GLAZED && tn_face_sheltered(house, face) != TN_NO_CELL;
     return glazed ? (tn_int128)opening->wide * opening->high : 0;
+}
+
+uint32_t tn_room_areas(const tn_house *house, const uint32_t *rooms, uint32_t room, tn_int128 *gross, tn_int128 *net)
+{
+    uint32_t cells = 0;
+    *gross = *net = 0;
+    for (uint32_t i = room; i < house->cell_count; i++) {
+        if (rooms[i] != room || house->cells[i].open)
+            continue;
+        tn_rectangle clear = tn_cell_clear(house, i);
+        *gross += tn_cell_area(&house->cells[i]);
+        *net += (tn_int128)(clear.x1 - clear.x0) * (clear.y1 - clear.y0);
+        cells++;
+    }
+    return cells;
 }
 
 tn_int128 tn_room_glazing(const tn_house *house, const uint32_t *rooms, uint32_t room)

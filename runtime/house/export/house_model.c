@@ -264,20 +264,6 @@ static tn_status take_parts(builder *b, uint32_t storey, uint32_t room, uint32_t
     return status;
 }
 
-static double square_metres(tn_int128 area)
-{
-    return (double)area / 1e18;
-}
-
-static tn_int128 gross_of(const builder *b, uint32_t room)
-{
-    tn_int128 gross = 0;
-    for (uint32_t i = 0; i < b->house->cell_count; i++)
-        if (b->numbered[i] == room && !b->house->cells[i].open)
-            gross += tn_cell_area(&b->house->cells[i]);
-    return gross;
-}
-
 enum { AREA_DIGITS = 12 };
 
 static tn_status say_room(const builder *b, uint32_t room, tn_mesh_node *node, tn_error *error)
@@ -290,9 +276,9 @@ static tn_status say_room(const builder *b, uint32_t room, tn_mesh_node *node, t
     tn_json_object(&json, NULL);
     tn_json_string(&json, "function", tn_text(house->form->module, tn_form_rule(house->form, cell->function)->name));
     tn_json_string(&json, "number", numbered->number);
-    tn_json_rounded(&json, "gross_m2", square_metres(gross_of(b, room)), AREA_DIGITS);
+    tn_json_rounded(&json, "gross_m2", numbered->gross / 1e18, AREA_DIGITS);
     tn_json_rounded(&json, "net_m2", numbered->net / 1e18, AREA_DIGITS);
-    tn_json_rounded(&json, "glazed_m2", square_metres(tn_room_glazing(house, b->rooms.rooms, numbered->room)),
+    tn_json_rounded(&json, "glazed_m2", (double)tn_room_glazing(house, b->rooms.rooms, numbered->room) / 1e18,
                     AREA_DIGITS);
     tn_json_object_end(&json);
     node->facts = text.data;
@@ -378,7 +364,7 @@ static tn_status say_house(const builder *b, const tn_solids *solids, tn_error *
     bool priced = tn_form_has_prices(house->form);
     tn_status status = priced ? tn_house_costs(house, solids, &costs, error) : TN_OK;
     for (uint32_t r = 0; r < b->rooms.room_count; r++) {
-        gross += square_metres(gross_of(b, r + 1));
+        gross += b->rooms.numbered[r].gross / 1e18;
         net += b->rooms.numbered[r].net / 1e18;
     }
     tn_json json = tn_json_text(&text, TN_JSON_TIGHT);

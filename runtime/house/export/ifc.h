@@ -60,7 +60,7 @@ typedef struct tn_ifc {
     unsigned *materials; /* [kind of solid, then material, then layer of the form] */
     unsigned layer_sets[TN_LAYERED_COUNT];
     unsigned classifications[TN_CLASSIFICATIONS_MAX]; /* of the form */
-    unsigned *styles; /* [kind of solid, then material] */
+    unsigned *styles;                                 /* [kind of solid, then material] */
     unsigned char colours[TN_HOUSE_GROUPS_MAX][3];
     unsigned scrap; /* in place of a group's definition when there is no memory for it */
     bool failed;    /* out of memory */
@@ -126,6 +126,9 @@ void tn_ifc_face_key(const tn_ifc *ifc, uint32_t face, char key[TN_IFC_FACE_KEY]
 
 /* A thickness as the form writes lengths, behind a word: `outside 8"`. */
 void tn_ifc_sized_name(const tn_ifc *ifc, const char *word, int64_t thick, char *text, size_t size);
+
+/* The shape of solids (SweptSolid, Tessellation), and frees their list; 0: there are none. */
+unsigned tn_ifc_shape(tn_ifc *ifc, const char *kind, tn_stepfile_list *solids);
 
 /* The shape of a box at its placement, by its low and high corner there. */
 unsigned tn_ifc_box(tn_ifc *ifc, const double low[3], const double high[3]);

@@ -291,10 +291,7 @@ static tn_deck_slab put_bodies(tn_ifc *ifc, const tn_rectangles *deck, const tn_
         else
             tn_stepfile_list_add(&bodies, put_body(ifc, outline, ring, high));
     }
-    slab.shape =
-        tn_stepfile_shape(&ifc->step, tn_stepfile_body(&ifc->step, "SweptSolid", tn_stepfile_list_text(&bodies)), 0);
-    ifc->failed |= bodies.text.failed;
-    tn_stepfile_list_clear(&bodies);
+    slab.shape = tn_ifc_shape(ifc, "SweptSolid", &bodies);
     return slab;
 }
 

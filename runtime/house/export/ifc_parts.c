@@ -49,7 +49,7 @@ void tn_ifc_sized_name(const tn_ifc *ifc, const char *word, int64_t thick, char 
     snprintf(text, size, "%s %s", word, length);
 }
 
-/* ---- boxes */
+/* ---- shapes */
 
 double tn_ifc_box_volume(const tn_box *b)
 {
@@ -69,6 +69,15 @@ double tn_ifc_prism_volume(const tn_block_corner *c, size_t count)
         six += (x[0] * y[1] - x[1] * y[0]) * (high / 1e9);
     }
     return six / 6;
+}
+
+unsigned tn_ifc_shape(tn_ifc *ifc, const char *kind, tn_stepfile_list *solids)
+{
+    const char *list = tn_stepfile_list_text(solids);
+    unsigned shape = list ? tn_stepfile_shape(&ifc->step, tn_stepfile_body(&ifc->step, kind, list), 0) : 0;
+    ifc->failed |= solids->text.failed;
+    tn_stepfile_list_clear(solids);
+    return shape;
 }
 
 unsigned tn_ifc_box(tn_ifc *ifc, const double low[3], const double high[3])

@@ -65,10 +65,7 @@ static bool take_part(tn_ifc *ifc, size_t number, tn_ifc_prisms *part)
         part->volume += tn_ifc_prism_volume(corners, count);
         part->plan += tn_ifc_prism_volume(flat, count);
     }
-    part->shape =
-        tn_stepfile_shape(&ifc->step, tn_stepfile_body(&ifc->step, "Tessellation", tn_stepfile_list_text(&bodies)), 0);
-    ifc->failed |= bodies.text.failed;
-    tn_stepfile_list_clear(&bodies);
+    part->shape = tn_ifc_shape(ifc, "Tessellation", &bodies);
     return true;
 }
 

@@ -59,12 +59,6 @@ static bool is_faceted(const tn_ifc *ifc, uint32_t room)
 
 /* ---- spaces */
 
-/* Square metres. */
-static double area_of(tn_rectangle r)
-{
-    return (double)(r.x1 - r.x0) * (double)(r.y1 - r.y0) / 1e18;
-}
-
 /* Its number, as drawings have it. */
 static const char *number_of(const tn_ifc *ifc, uint32_t room)
 {
@@ -93,7 +87,7 @@ static void put_zone(tn_ifc *ifc, const char *function, unsigned space)
 
 /* What is added up of a room's cells. level: it is as high as its storey all over. */
 typedef struct tn_ifc_room {
-    double gross, net, volume;
+    double volume;
     bool level;
     unsigned shape;
 } tn_ifc_room;
@@ -110,14 +104,8 @@ static tn_ifc_room measure(tn_ifc *ifc, uint32_t room)
             continue;
         put_cell(ifc, i, faceted, &solids, &sums.volume);
         sums.level &= !ifc->house->cells[i].open;
-        sums.gross += ifc->house->cells[i].open ? 0 : area_of(ifc->house->cells[i].at);
-        sums.net += ifc->house->cells[i].open ? 0 : area_of(tn_cell_clear(ifc->house, i));
     }
-    unsigned body =
-        tn_stepfile_body(&ifc->step, faceted ? "Tessellation" : "SweptSolid", tn_stepfile_list_text(&solids));
-    sums.shape = tn_stepfile_shape(&ifc->step, body, 0);
-    ifc->failed |= solids.text.failed;
-    tn_stepfile_list_clear(&solids);
+    sums.shape = tn_ifc_shape(ifc, faceted ? "Tessellation" : "SweptSolid", &solids);
     return sums;
 }
 
@@ -127,6 +115,7 @@ static void put_space(tn_ifc *ifc, uint32_t room, tn_stepfile_list *list)
     const char *function = tn_text(house->form->module, tn_form_rule(house->form, house->cells[room].function)->name);
     bool outdoor = tn_cell_is_outdoor(house, room);
     tn_ifc_room sums = measure(ifc, room);
+    tn_int128 gross, net;
     char key[TN_IFC_CELL_KEY + 10], cell[TN_IFC_CELL_KEY], words[TN_NAME_MAX + 1];
     spell(function, words);
     tn_ifc_cell_key(ifc, room, cell);
@@ -140,9 +129,10 @@ static void put_space(tn_ifc *ifc, uint32_t room, tn_stepfile_list *list)
                               .shape = sums.shape,
                               .where = tn_stepfile_placement(&ifc->step, ifc->placement, 0, 0, 0)};
     unsigned space = tn_ifc_put(ifc, &part, key);
+    tn_room_areas(house, ifc->names.rooms, room, &gross, &net);
     const tn_ifc_property external = tn_ifc_truth("IsExternal", outdoor);
-    const tn_ifc_quantity quantities[] = {{"GrossFloorArea", 'A', sums.gross},
-                                          {"NetFloorArea", 'A', sums.net},
+    const tn_ifc_quantity quantities[] = {{"GrossFloorArea", 'A', (double)gross / 1e18},
+                                          {"NetFloorArea", 'A', (double)net / 1e18},
                                           {"NetVolume", 'V', sums.volume},
                                           {"Height", 'L', (double)tn_form_clear(house->form, ifc->storey)}};
     tn_ifc_properties(ifc, space, "Pset_SpaceCommon", function, &external, 1);

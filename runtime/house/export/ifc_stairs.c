@@ -88,14 +88,7 @@ static unsigned shape_of(tn_ifc *ifc, const tn_ifc_stair *stair, size_t first, s
     put_boxes(ifc, stair, first, end, faceted, steps);
     if (faceted)
         put_wedges(ifc, stair, steps);
-    const char *list = tn_stepfile_list_text(&steps->bodies);
-    unsigned shape =
-        list ? tn_stepfile_shape(&ifc->step,
-                                 tn_stepfile_body(&ifc->step, faceted ? "Tessellation" : "SweptSolid", list), 0)
-             : 0;
-    ifc->failed |= steps->bodies.text.failed;
-    tn_stepfile_list_clear(&steps->bodies);
-    return shape;
+    return tn_ifc_shape(ifc, faceted ? "Tessellation" : "SweptSolid", &steps->bodies);
 }
 
 static void keep(tn_ifc *ifc, tn_ifc_stair *stair, unsigned part)

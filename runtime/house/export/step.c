@@ -351,8 +351,7 @@ unsigned tn_stepfile_curve(tn_stepfile *step, const double (*points)[2], size_t 
 
 unsigned tn_stepfile_body(tn_stepfile *step, const char *kind, const char *solids)
 {
-    return tn_stepfile_add(step, "IFCSHAPEREPRESENTATION(#%u,'Body','%s',%s)", step->context, kind,
-                           solids ? solids : "()");
+    return tn_stepfile_add(step, "IFCSHAPEREPRESENTATION(#%u,'Body','%s',%s)", step->context, kind, solids);
 }
 
 unsigned tn_stepfile_shape(tn_stepfile *step, unsigned body, unsigned other)

@@ -39,11 +39,12 @@ static double net_of(const tn_house *house, uint32_t cell)
 static bool measure(const tn_house *house, const uint32_t *rooms, tn_numbered_room *found)
 {
     double most = -1;
-    found->net = 0;
+    found->gross = found->net = 0;
     for (uint32_t i = found->room; i < house->cell_count; i++) {
         if (rooms[i] != found->room || house->cells[i].storey != found->storey || house->cells[i].open)
             continue;
         double net = net_of(house, i);
+        found->gross += (double)tn_cell_area(&house->cells[i]);
         found->net += net;
         found->largest = net > most ? i : found->largest;
         most = net > most ? net : most;

@@ -5,10 +5,11 @@
 
 #include "runtime/house/house.h"
 
-/* A room in a storey. largest: of its cells there. net: the area between its walls there, in square nanometres. */
+/* A room in a storey. largest: of its cells there. gross, net: its areas there between the planes of its walls and
+ * between the walls, in square nanometres. */
 typedef struct tn_numbered_room {
     uint32_t room, storey, largest; /* room: its lowest cell */
-    double net;
+    double gross, net;
     char number[16], name[48];
 } tn_numbered_room;
 

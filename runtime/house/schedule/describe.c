@@ -67,11 +67,6 @@ static void put_area(tn_json *json, const char *key, tn_int128 area)
     free(text.data);
 }
 
-static tn_int128 area_of(tn_rectangle r)
-{
-    return (tn_int128)(r.x1 - r.x0) * (r.y1 - r.y0);
-}
-
 static const char *function_of(const tn_house *house, const tn_cell *cell)
 {
     return cell->open ? "void" : tn_text(house->form->module, tn_form_rule(house->form, cell->function)->name);
@@ -174,22 +169,10 @@ static tn_status put_faces(const tn_house *house, tn_json *json, tn_error *error
     return status;
 }
 
-/* The areas of a room, to the planes and to the walls; voids do not count. */
-static void room_areas(const tn_house *house, const uint32_t *rooms, uint32_t room, tn_int128 *gross, tn_int128 *net)
-{
-    *gross = *net = 0;
-    for (uint32_t i = room; i < house->cell_count; i++) {
-        if (rooms[i] != room || house->cells[i].open)
-            continue;
-        *gross += area_of(house->cells[i].at);
-        *net += area_of(tn_cell_clear(house, i));
-    }
-}
-
 static void put_room(const tn_house *house, const uint32_t *rooms, uint32_t room, tn_json *json)
 {
     tn_int128 gross, net;
-    room_areas(house, rooms, room, &gross, &net);
+    tn_room_areas(house, rooms, room, &gross, &net);
     tn_json_object(json, NULL);
     tn_json_string(json, "function", function_of(house, &house->cells[room]));
     tn_json_list(json, "cells");
@@ -474,10 +457,7 @@ tn_status tn_house_schedule(const tn_house *house, tn_buffer *out, tn_error *err
         if (rooms[i] != i)
             continue;
         tn_int128 gross, net;
-        uint32_t cells = 0;
-        room_areas(house, rooms, i, &gross, &net);
-        for (uint32_t k = i; k < house->cell_count; k++)
-            cells += rooms[k] == i && !house->cells[k].open;
+        uint32_t cells = tn_room_areas(house, rooms, i, &gross, &net);
         tn_buffer_printf(out, "%s,%s,%u,", function_of(house, &house->cells[i]),
                          storey_of(house, house->cells[i].storey), cells);
         put_square(out, gross, unit.length);
