@@ -387,7 +387,6 @@ static const tn_label_count *counts_below(const tn_labelling *l, uint32_t field,
     return l->below + l->below_first[follow];
 }
 
-/* A node that is not passed, but all below it: the number behind it. */
 uint32_t tn_labelling_find(const tn_labelling *l, tn_labelling_pass *pass, void *context)
 {
     uint32_t node = l->root, number = 0;
@@ -404,11 +403,36 @@ uint32_t tn_labelling_find(const tn_labelling *l, tn_labelling_pass *pass, void 
                 break;
             number += size_below(l, f, follow[v]);
         }
-        if (v == l->values[f])
+        if (v == l->values[f]) /* all of a stretch are passed that was not passed as a whole, or all there are */
             return number;
         node = follow[v];
     }
     return number;
+}
+
+typedef struct adding_before {
+    uint32_t left; /* combinations still to add */
+    tn_labelling_add *add;
+    void *context;
+} adding_before;
+
+static bool pass_before(void *context, const tn_label_count *counts, size_t count)
+{
+    adding_before *a = context;
+    uint64_t size = 0;
+    for (size_t i = 0; i < count; i++)
+        size += counts[i].count;
+    if (size > a->left)
+        return false;
+    a->left -= (uint32_t)size;
+    a->add(a->context, counts, count);
+    return true;
+}
+
+void tn_labelling_before(const tn_labelling *l, uint32_t number, tn_labelling_add *add, void *context)
+{
+    adding_before a = {number, add, context};
+    tn_labelling_find(l, pass_before, &a);
 }
 
 typedef struct seeking {

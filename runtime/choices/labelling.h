@@ -6,7 +6,7 @@
  * of the next field, or a label if it is the last field's. It knows how often each label stands below it, so that
  * combinations and numbers are found from one another in one way down.
  *
- * Letters are numbered by their first combinations. Equal labellings have equal nodes in equal order.
+ * Labels are numbered by their first combinations. Equal labellings have equal nodes in equal order.
  *
  * Immutable once made, and then shared between threads; the owner frees it with tn_labelling_free. What makes one
  * returns TN_LIMIT where it has more nodes or combinations than there is room for, or TN_MEMORY. */
@@ -76,6 +76,10 @@ uint32_t tn_labelling_number(const tn_labelling *labelling, const uint8_t *value
  * all are, the count. */
 typedef bool tn_labelling_pass(void *context, const tn_label_count *counts, size_t count);
 uint32_t tn_labelling_find(const tn_labelling *labelling, tn_labelling_pass *pass, void *context);
+
+/* Adds up the combinations whose numbers are lower than a number, in such stretches. */
+typedef void tn_labelling_add(void *context, const tn_label_count *counts, size_t count);
+void tn_labelling_before(const tn_labelling *labelling, uint32_t number, tn_labelling_add *add, void *context);
 
 /* The first number from `from` on that has a label that is wanted; if none has, the count. */
 typedef bool tn_labelling_wanted(void *context, uint32_t label);

@@ -99,18 +99,18 @@ static void few_plans_before(const tn_library *library, const uint32_t *next, tn
     mpz_add_ui(sum, sum, (mp_limb_t)plans);
 }
 
-/* Where trays are not listed: a stretch of trays that goes by as a whole, or not. */
+/* Where trays are not listed: stretches of trays that go by as a whole, or not. */
 typedef struct passing {
     const tn_library *library;
     const uint32_t *next; /* of the state */
     uint32_t left;
-    uint32_t trays; /* before a tray: still to pass */
-    mpz_ptr sum;    /* plans that start in trays passed; to find a tray: in the stretch */
-    mpz_ptr rest;   /* to find a tray: its plan, counted from the trays that were not passed */
+    mpz_ptr sum;  /* plans that start in the trays of stretches */
+    mpz_ptr rest; /* to find a tray: its plan, counted from the trays that were not passed */
 } passing;
 
-static void add_stretch(const passing *p, const tn_label_count *counts, size_t count)
+static void add_plans(void *context, const tn_label_count *counts, size_t count)
 {
+    const passing *p = context;
     const tn_count_row *row = &p->library->rows[p->left];
     for (size_t i = 0; i < count; i++) {
         uint32_t state = p->next[p->library->kept->column[counts[i].label]];
@@ -119,24 +119,11 @@ static void add_stretch(const passing *p, const tn_label_count *counts, size_t c
     }
 }
 
-static bool pass_trays(void *context, const tn_label_count *counts, size_t count)
-{
-    passing *p = context;
-    uint64_t trays = 0;
-    for (size_t i = 0; i < count; i++)
-        trays += counts[i].count;
-    if (trays > p->trays)
-        return false;
-    p->trays -= (uint32_t)trays;
-    add_stretch(p, counts, count);
-    return true;
-}
-
 static bool pass_plans(void *context, const tn_label_count *counts, size_t count)
 {
-    passing *p = context;
+    const passing *p = context;
     mpz_set_ui(p->sum, 0);
-    add_stretch(p, counts, count);
+    add_plans(context, counts, count);
     if (mpz_cmp(p->sum, p->rest) > 0)
         return false;
     mpz_sub(p->rest, p->rest, p->sum);
@@ -149,9 +136,9 @@ void tn_plans_before(const tn_library *library, uint32_t state, tn_tray tray, ui
     const tn_count_row *row = &library->rows[left];
     const uint32_t *next = kept->delta + (size_t)state * kept->columns;
     if (library->schema->legal) {
-        passing p = {library, next, left, tray, sum, NULL};
+        passing p = {library, next, left, sum, NULL};
         mpz_set_ui(sum, 0);
-        tn_labelling_find(tn_kinds_of(&library->classes->kinds), pass_trays, &p);
+        tn_labelling_before(tn_kinds_of(&library->classes->kinds), tray, add_plans, &p);
         return;
     }
     if (row->limbs == 1) {
@@ -202,24 +189,11 @@ typedef struct apart_plan {
     const tn_tray *trays;
 } apart_plan;
 
-/* Where trays are not listed: the classes of those before a tray. */
-typedef struct lower_trays {
-    uint64_t left; /* still to pass */
-    uint64_t *classes;
-} lower_trays;
-
-static bool pass_classes(void *context, const tn_label_count *counts, size_t count)
+static void add_classes(void *context, const tn_label_count *counts, size_t count)
 {
-    lower_trays *lower = context;
-    uint64_t trays = 0;
+    uint64_t *classes = context;
     for (size_t i = 0; i < count; i++)
-        trays += counts[i].count;
-    if (trays > lower->left)
-        return false;
-    lower->left -= trays;
-    for (size_t i = 0; i < count; i++)
-        lower->classes[counts[i].label] += counts[i].count;
-    return true;
+        classes[counts[i].label] += counts[i].count;
 }
 
 static void add_lower_trays(void *context, uint32_t place, uint64_t *classes)
@@ -227,8 +201,7 @@ static void add_lower_trays(void *context, uint32_t place, uint64_t *classes)
     const apart_plan *plan = context;
     tn_tray tray = plan->trays[place];
     if (!plan->classes->of_tray) {
-        lower_trays lower = {tray, classes};
-        tn_labelling_find(tn_kinds_of(&plan->classes->kinds), pass_classes, &lower);
+        tn_labelling_before(tn_kinds_of(&plan->classes->kinds), tray, add_classes, classes);
         return;
     }
     for (tn_tray t = 0; t < tray; t++)
@@ -301,7 +274,7 @@ static tn_tray find_tray(const tn_library *library, uint32_t state, uint32_t lef
     const uint32_t *next = library->kept->delta + (size_t)state * library->kept->columns;
     const tn_count_row *row = &library->rows[left];
     if (library->schema->legal) {
-        passing p = {library, next, left, 0, sum, rest};
+        passing p = {library, next, left, sum, rest};
         return tn_labelling_find(tn_kinds_of(&library->classes->kinds), pass_plans, &p);
     }
     tn_tray tray = guess_tray(library, next, left, rest);

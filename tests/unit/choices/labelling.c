@@ -110,24 +110,30 @@ static tn_labelling *split(test_random *random, tn_labelling *before, table *t)
     return made;
 }
 
-/* Passes combinations as long as fewer than `most` are passed, and counts those of each label. */
+/* Passes so many combinations of a label, and all others. */
 typedef struct passing {
-    uint64_t most;
-    uint32_t *passed;
+    uint32_t label, left;
 } passing;
 
 static bool pass(void *context, const tn_label_count *below, size_t count)
 {
     passing *p = context;
-    uint64_t all = 0;
-    for (size_t i = 0; i < count; i++)
-        all += below[i].count;
-    if (all > p->most)
-        return false;
-    p->most -= all;
-    for (size_t i = 0; i < count; i++)
-        p->passed[below[i].label] += below[i].count;
+    for (size_t i = 0; i < count; i++) {
+        if (below[i].label != p->label)
+            continue;
+        if (below[i].count > p->left)
+            return false;
+        p->left -= below[i].count;
+    }
     return true;
+}
+
+/* Counts the combinations of each label. */
+static void add(void *context, const tn_label_count *below, size_t count)
+{
+    uint32_t *passed = context;
+    for (size_t i = 0; i < count; i++)
+        passed[below[i].label] += below[i].count;
 }
 
 static bool is_label(void *context, uint32_t label)
@@ -152,15 +158,18 @@ static void check(const tn_labelling *l, const table *t, uint32_t labels)
         if (before[t->label[c]] == 0)
             assert_int_equal(l->first[t->label[c]], number);
         memset(passed, 0, sizeof passed);
-        passing p = {number, passed};
+        tn_labelling_before(l, number, add, passed);
+        passing p = {t->label[c], before[t->label[c]]};
         assert_int_equal(tn_labelling_find(l, pass, &p), number);
+        assert_int_equal(p.left, 0);
         assert_memory_equal(passed, before, sizeof passed);
         before[t->label[c]]++;
         number++;
     }
     assert_int_equal(l->count, number);
-    passing all = {UINT64_MAX, memset(passed, 0, sizeof passed)};
+    passing all = {0, UINT32_MAX};
     assert_int_equal(tn_labelling_find(l, pass, &all), number);
+    tn_labelling_before(l, number, add, memset(passed, 0, sizeof passed));
     assert_memory_equal(passed, before, sizeof passed);
     for (uint32_t k = 0; k < 3; k++)
         next[k] = number;
