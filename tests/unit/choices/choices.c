@@ -9,51 +9,31 @@
 
 #include <cmocka.h>
 
+#include "tests/support/test_choices.h"
 #include "tests/support/test_rule.h"
 
-enum { FIELDS = 4, SETS = 24, ROOM = 4096 };
-static const uint32_t counts[FIELDS] = {3, 2, 5, 4};
-enum { BITS = 3 + 2 + 5 + 4, COMBINATIONS = 3 * 2 * 5 * 4 };
+enum { SETS = 24, ROOM = 4096 };
 
 /* Which combinations are in it, in order. */
 typedef struct plain_set {
-    bool in[COMBINATIONS];
+    bool in[TEST_COMBINATIONS];
 } plain_set;
 
 static uint32_t number_of(const uint8_t *values)
 {
     uint32_t number = 0;
-    for (uint32_t f = 0; f < FIELDS; f++)
-        number = number * counts[f] + values[f];
+    for (uint32_t f = 0; f < TEST_FIELDS; f++)
+        number = number * test_choice_counts[f] + values[f];
     return number;
-}
-
-static void values_of(uint32_t number, uint8_t *values)
-{
-    for (uint32_t f = FIELDS; f-- > 0;) {
-        values[f] = (uint8_t)(number % counts[f]);
-        number /= counts[f];
-    }
-}
-
-static bool is_within(const uint8_t *values, uint64_t mask)
-{
-    uint32_t start = 0;
-    for (uint32_t f = 0; f < FIELDS; f++) {
-        if (!(mask >> (start + values[f]) & 1))
-            return false;
-        start += counts[f];
-    }
-    return true;
 }
 
 static plain_set plain_box(uint64_t mask)
 {
     plain_set set;
-    uint8_t values[FIELDS];
-    for (uint32_t n = 0; n < COMBINATIONS; n++) {
-        values_of(n, values);
-        set.in[n] = is_within(values, mask);
+    uint8_t values[TEST_FIELDS];
+    for (uint32_t n = 0; n < TEST_COMBINATIONS; n++) {
+        test_choice_values(n, values);
+        set.in[n] = test_choice_is_within(values, mask);
     }
     return set;
 }
@@ -79,7 +59,7 @@ static bool see_box(void *context, const uint64_t *mask)
 {
     seen *s = context;
     plain_set box = plain_box(*mask);
-    for (uint32_t n = 0; n < COMBINATIONS; n++) {
+    for (uint32_t n = 0; n < TEST_COMBINATIONS; n++) {
         s->twice |= box.in[n] && s->set.in[n];
         s->set.in[n] |= box.in[n];
         s->count += box.in[n];
@@ -90,9 +70,9 @@ static bool see_box(void *context, const uint64_t *mask)
 static void check(tn_choice_diagram *choices, tn_choice_set set, const plain_set *wanted)
 {
     seen each = {0}, boxes = {0};
-    uint8_t first[FIELDS];
-    uint32_t count = 0, least = COMBINATIONS;
-    for (uint32_t n = COMBINATIONS; n-- > 0;) {
+    uint8_t first[TEST_FIELDS];
+    uint32_t count = 0, least = TEST_COMBINATIONS;
+    for (uint32_t n = TEST_COMBINATIONS; n-- > 0;) {
         count += wanted->in[n];
         least = wanted->in[n] ? n : least;
     }
@@ -116,21 +96,22 @@ static void test_sets(void **state)
     (void)state;
     for (uint64_t seed = 0; seed < 40; seed++) {
         test_random random = {seed, 0};
-        tn_choice_diagram *choices = tn_choices_new(counts, FIELDS, TN_CHOICES_ROOM);
+        tn_choice_diagram *choices = tn_choices_new(test_choice_counts, TEST_FIELDS, TN_CHOICES_ROOM);
         assert_non_null(choices);
         tn_choice_set sets[SETS], copies[SETS], any;
         plain_set plain[SETS], all = {0};
         for (int i = 0; i < SETS; i++) {
             uint32_t a = i ? test_random_below(&random, (uint32_t)i) : 0,
                      b = i ? test_random_below(&random, (uint32_t)i) : 0;
-            uint64_t mask = test_random_below(&random, 1u << BITS) | test_random_below(&random, 1u << BITS);
+            uint64_t mask =
+                test_random_below(&random, 1u << TEST_CHOICE_BITS) | test_random_below(&random, 1u << TEST_CHOICE_BITS);
             int kind = i < 6 ? 0 : (int)test_random_below(&random, 4);
             sets[i] = kind == 0   ? tn_choices_box(choices, &mask)
                       : kind == 1 ? tn_choices_not(choices, sets[a])
                       : kind == 2 ? tn_choices_and(choices, sets[a], sets[b])
                                   : tn_choices_or(choices, sets[a], sets[b]);
             plain[i] = plain_box(mask);
-            for (uint32_t n = 0; kind != 0 && n < COMBINATIONS; n++)
+            for (uint32_t n = 0; kind != 0 && n < TEST_COMBINATIONS; n++)
                 plain[i].in[n] = kind == 1   ? !plain[a].in[n]
                                  : kind == 2 ? plain[a].in[n] && plain[b].in[n]
                                              : plain[a].in[n] || plain[b].in[n];
@@ -142,7 +123,7 @@ static void test_sets(void **state)
             memcpy(copies, sets, sizeof sets);
             any = tn_choices_any_of(choices, copies, (size_t)count);
             check(choices, any, &all);
-            for (uint32_t n = 0; n < COMBINATIONS; n++)
+            for (uint32_t n = 0; n < TEST_COMBINATIONS; n++)
                 all.in[n] |= plain[count].in[n];
         }
         tn_choices_free(choices);
@@ -190,10 +171,10 @@ static void test_very_many(void **state)
 
 /* ---- sums */
 
-enum { TERMS = 4, TERM_VALUES = COMBINATIONS };
+enum { TERMS = 4, TERM_VALUES = TEST_COMBINATIONS };
 
 typedef struct drawn_term {
-    uint32_t fields[FIELDS];
+    uint32_t fields[TEST_FIELDS];
     mpz_t values[TERM_VALUES];
     uint8_t outcomes[TERM_VALUES];
     tn_choice_term term;
@@ -202,12 +183,12 @@ typedef struct drawn_term {
 static void draw_term(test_random *random, drawn_term *t)
 {
     *t = (drawn_term){.term = {.count = 1}};
-    uint32_t chosen = test_random_below(random, 1u << FIELDS) & test_random_below(random, 1u << FIELDS);
+    uint32_t chosen = test_random_below(random, 1u << TEST_FIELDS) & test_random_below(random, 1u << TEST_FIELDS);
     bool large = test_random_below(random, 4) == 0, holes = test_random_below(random, 5) == 0;
-    for (uint32_t f = 0; f < FIELDS; f++)
+    for (uint32_t f = 0; f < TEST_FIELDS; f++)
         if (chosen >> f & 1) {
             t->fields[t->term.field_count++] = f;
-            t->term.count *= counts[f];
+            t->term.count *= test_choice_counts[f];
         }
     t->term.fields = t->fields;
     t->term.values = t->values;
@@ -229,7 +210,7 @@ static int sum_of(const drawn_term *terms, const uint8_t *values)
     for (int t = 0; t < TERMS; t++) {
         size_t place = 0;
         for (uint32_t i = 0; i < terms[t].term.field_count; i++)
-            place = place * counts[terms[t].fields[i]] + values[terms[t].fields[i]];
+            place = place * test_choice_counts[terms[t].fields[i]] + values[terms[t].fields[i]];
         mpz_add(sum, sum, terms[t].values[place]);
         outcome = outcome || terms[t].outcomes[place] == 0 ? outcome : 1 + terms[t].outcomes[place];
     }
@@ -245,7 +226,7 @@ static bool is_mixed(const drawn_term *terms, const uint8_t *values)
     for (int t = 0; t < TERMS; t++) {
         size_t place = 0;
         for (uint32_t i = 0; i < terms[t].term.field_count; i++)
-            place = place * counts[terms[t].fields[i]] + values[terms[t].fields[i]];
+            place = place * test_choice_counts[terms[t].fields[i]] + values[terms[t].fields[i]];
         silent |= terms[t].outcomes[place] == TN_CHOICE_SILENT;
         undefined |= terms[t].outcomes[place] == TN_CHOICE_UNDEFINED;
     }
@@ -254,7 +235,7 @@ static bool is_mixed(const drawn_term *terms, const uint8_t *values)
 
 static void check_sums(test_random *random, const drawn_term *drawn, unsigned signs)
 {
-    tn_choice_diagram *choices = tn_choices_new(counts, FIELDS, TN_CHOICES_ROOM);
+    tn_choice_diagram *choices = tn_choices_new(test_choice_counts, TEST_FIELDS, TN_CHOICES_ROOM);
     assert_non_null(choices);
     tn_choice_term terms[TERMS];
     tn_choice_set sets[2];
@@ -267,9 +248,9 @@ static void check_sums(test_random *random, const drawn_term *drawn, unsigned si
     seen found[2] = {0};
     assert_true(tn_choices_each(choices, sets[0], see, &found[0]));
     assert_true(tn_choices_each(choices, sets[1], see, &found[1]));
-    for (uint32_t n = 0; n < COMBINATIONS; n++) {
-        uint8_t values[FIELDS];
-        values_of(n, values);
+    for (uint32_t n = 0; n < TEST_COMBINATIONS; n++) {
+        uint8_t values[TEST_FIELDS];
+        test_choice_values(n, values);
         int sum = sum_of(drawn, values);
         yes.in[n] = sum < 2 && signs & (sum < 0 ? TN_CHOICE_BELOW : sum > 0 ? TN_CHOICE_ABOVE : TN_CHOICE_ZERO);
         no.in[n] = is_mixed(drawn, values) ? found[1].set.in[n] : sum == 2 || (sum < 2 && !yes.in[n]);

@@ -8,48 +8,28 @@
 
 #include <cmocka.h>
 
+#include "tests/support/test_choices.h"
 #include "tests/support/test_rule.h"
 
-enum { FIELDS = 4, ROUNDS = 200, TESTS = 6 };
-static const uint32_t counts[FIELDS] = {3, 2, 5, 4};
-enum { BITS = 3 + 2 + 5 + 4, COMBINATIONS = 3 * 2 * 5 * 4 };
+enum { ROUNDS = 200, TESTS = 6 };
 
 /* What the definition says: of each combination its label, or TN_UNLABELLED. */
 typedef struct table {
-    uint32_t label[COMBINATIONS];
+    uint32_t label[TEST_COMBINATIONS];
 } table;
-
-static void values_of(uint32_t code, uint8_t *values)
-{
-    for (uint32_t f = FIELDS; f-- > 0;) {
-        values[f] = (uint8_t)(code % counts[f]);
-        code /= counts[f];
-    }
-}
-
-static bool is_within(const uint8_t *values, uint64_t mask)
-{
-    uint32_t start = 0;
-    for (uint32_t f = 0; f < FIELDS; f++) {
-        if (!(mask >> (start + values[f]) & 1))
-            return false;
-        start += counts[f];
-    }
-    return true;
-}
 
 static uint64_t random_mask(test_random *random)
 {
-    uint64_t all = (UINT64_C(1) << BITS) - 1;
+    uint64_t all = (UINT64_C(1) << TEST_CHOICE_BITS) - 1;
     return (test_random_next(random) | test_random_next(random)) & all;
 }
 
 /* Numbers the labels of a table by their first combinations. */
 static uint32_t number_labels(table *t)
 {
-    uint32_t of[COMBINATIONS * 64], made = 0;
+    uint32_t of[TEST_COMBINATIONS * 64], made = 0;
     memset(of, 0xff, sizeof of);
-    for (uint32_t c = 0; c < COMBINATIONS; c++) {
+    for (uint32_t c = 0; c < TEST_COMBINATIONS; c++) {
         if (t->label[c] == TN_UNLABELLED)
             continue;
         uint32_t *label = &of[t->label[c]];
@@ -63,18 +43,18 @@ static uint32_t number_labels(table *t)
 /* Combinations that few random boxes leave. */
 static tn_labelling *random_set(test_random *random, table *t)
 {
-    tn_choice_diagram *choices = tn_choices_new(counts, FIELDS, TN_CHOICES_ROOM);
+    tn_choice_diagram *choices = tn_choices_new(test_choice_counts, TEST_FIELDS, TN_CHOICES_ROOM);
     tn_choice_set set = TN_CHOICE_ALL;
     tn_labelling *made;
-    for (uint32_t c = 0; c < COMBINATIONS; c++)
+    for (uint32_t c = 0; c < TEST_COMBINATIONS; c++)
         t->label[c] = 0;
     for (uint32_t i = test_random_below(random, TESTS); i-- > 0;) {
         uint64_t mask = random_mask(random);
         set = tn_choices_and(choices, set, tn_choices_not(choices, tn_choices_box(choices, &mask)));
-        for (uint32_t c = 0; c < COMBINATIONS; c++) {
-            uint8_t values[FIELDS];
-            values_of(c, values);
-            if (is_within(values, mask))
+        for (uint32_t c = 0; c < TEST_COMBINATIONS; c++) {
+            uint8_t values[TEST_FIELDS];
+            test_choice_values(c, values);
+            if (test_choice_is_within(values, mask))
                 t->label[c] = TN_UNLABELLED;
         }
     }
@@ -88,20 +68,20 @@ static tn_labelling *split(test_random *random, tn_labelling *before, table *t)
 {
     tn_labelling *test, *made;
     uint64_t mask = random_mask(random);
-    uint32_t field = test_random_below(random, FIELDS), letters[8], kinds[8];
+    uint32_t field = test_random_below(random, TEST_FIELDS), letters[8], kinds[8];
     bool box = test_random_below(random, 2), joined = test_random_below(random, 2);
     for (uint32_t i = 0; i < 8; i++) {
-        letters[i] = i < counts[field] ? test_random_below(random, counts[field]) : 0;
+        letters[i] = i < test_choice_counts[field] ? test_random_below(random, test_choice_counts[field]) : 0;
         kinds[i] = test_random_below(random, 3);
     }
-    assert_int_equal(box ? tn_labelling_of_box(counts, FIELDS, &mask, &test)
-                         : tn_labelling_of_field(counts, FIELDS, field, letters, &test),
+    assert_int_equal(box ? tn_labelling_of_box(test_choice_counts, TEST_FIELDS, &mask, &test)
+                         : tn_labelling_of_field(test_choice_counts, TEST_FIELDS, field, letters, &test),
                      TN_OK);
     assert_int_equal(tn_labelling_join(before, test, joined ? kinds : NULL, &made), TN_OK);
-    for (uint32_t c = 0; c < COMBINATIONS; c++) {
-        uint8_t values[FIELDS];
-        values_of(c, values);
-        uint32_t letter = box ? is_within(values, mask) : letters[values[field]];
+    for (uint32_t c = 0; c < TEST_COMBINATIONS; c++) {
+        uint8_t values[TEST_FIELDS];
+        test_choice_values(c, values);
+        uint32_t letter = box ? test_choice_is_within(values, mask) : letters[values[field]];
         if (t->label[c] != TN_UNLABELLED)
             t->label[c] = t->label[c] * 8 + (joined ? kinds[letter] : letter);
     }
@@ -143,18 +123,18 @@ static bool is_label(void *context, uint32_t label)
 
 static void check(const tn_labelling *l, const table *t, uint32_t labels)
 {
-    uint32_t number = 0, before[COMBINATIONS] = {0}, passed[COMBINATIONS], next[3];
+    uint32_t number = 0, before[TEST_COMBINATIONS] = {0}, passed[TEST_COMBINATIONS], next[3];
     assert_int_equal(l->labels, labels);
-    for (uint32_t c = 0; c < COMBINATIONS; c++) {
-        uint8_t values[FIELDS], found[FIELDS];
-        values_of(c, values);
+    for (uint32_t c = 0; c < TEST_COMBINATIONS; c++) {
+        uint8_t values[TEST_FIELDS], found[TEST_FIELDS];
+        test_choice_values(c, values);
         if (t->label[c] == TN_UNLABELLED) {
             assert_int_equal(tn_labelling_number(l, values), TN_UNLABELLED);
             continue;
         }
         assert_int_equal(tn_labelling_number(l, values), number);
         assert_int_equal(tn_labelling_at(l, number, found), t->label[c]);
-        assert_memory_equal(found, values, FIELDS);
+        assert_memory_equal(found, values, TEST_FIELDS);
         if (before[t->label[c]] == 0)
             assert_int_equal(l->first[t->label[c]], number);
         memset(passed, 0, sizeof passed);
@@ -173,7 +153,7 @@ static void check(const tn_labelling *l, const table *t, uint32_t labels)
     assert_memory_equal(passed, before, sizeof passed);
     for (uint32_t k = 0; k < 3; k++)
         next[k] = number;
-    for (uint32_t c = COMBINATIONS, n = number; c-- > 0;) {
+    for (uint32_t c = TEST_COMBINATIONS, n = number; c-- > 0;) {
         if (t->label[c] == TN_UNLABELLED)
             continue;
         next[t->label[c] % 3] = --n;
