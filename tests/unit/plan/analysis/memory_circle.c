@@ -8,12 +8,11 @@
 
 #include <cmocka.h>
 
-#include "runtime/load.h"
 #include "runtime/plan/analysis/generated.h"
 #include "runtime/plan/match/lower.h"
 #include "runtime/plan/match/vm.h"
-#include "tests/support/compile_file.h"
 #include "tests/support/failing_memory.h"
+#include "tests/support/load_plan.h"
 #include "tests/support/test_rule.h"
 
 static const char text[] = "schema s { use = hall | room }\n"
@@ -32,9 +31,7 @@ typedef struct opened {
 static int setup(void **state)
 {
     static opened o;
-    const library_folders none = {0};
-    assert_int_equal(compile_text("circle.plan", text, strlen(text), &none, &o.compilation), TN_OK);
-    assert_int_equal(tn_module_load(o.compilation.module, o.compilation.module_size, NULL, &o.module, NULL), TN_OK);
+    o.module = load_plan(text, &o.compilation);
     assert_int_equal(tn_schema_new(o.module, 0, 0, &o.schema, NULL), TN_OK);
     *state = &o;
     return 0;

@@ -10,13 +10,12 @@
 
 #include "compiler/common/arena.h"
 #include "driver/open/census.h"
-#include "runtime/load.h"
 #include "runtime/plan/library/plan_rows.h"
 #include "runtime/plan/measure/crosstab.h"
 #include "runtime/plan/measure/named.h"
 #include "runtime/plan/measure/standing_plans.h"
-#include "tests/support/compile_file.h"
 #include "tests/support/fail_each.h"
+#include "tests/support/load_plan.h"
 
 /* Houses of one tray or two, 3 m or 4 m wide, 20 in all. */
 static const char text[] =
@@ -45,11 +44,8 @@ static tn_schema *schema_of(uint32_t library)
 
 static int setup(void **state)
 {
-    const library_folders none = {0};
     (void)state;
-    assert_int_equal(compile_text("lots.plan", text, strlen(text), &none, &opened.compilation), TN_OK);
-    assert_int_equal(
-        tn_module_load(opened.compilation.module, opened.compilation.module_size, NULL, &opened.module, NULL), TN_OK);
+    opened.module = load_plan(text, &opened.compilation);
     opened.house = schema_of(0);
     opened.lots = schema_of(1);
     assert_int_equal(tn_library_new(opened.house, 0, NULL, &opened.houses, NULL), TN_OK);

@@ -7,11 +7,10 @@
 
 #include <cmocka.h>
 
-#include "runtime/load.h"
 #include "runtime/plan/library/library.h"
 #include "runtime/plan/measure/best.h"
-#include "tests/support/compile_file.h"
 #include "tests/support/fail_each.h"
+#include "tests/support/load_plan.h"
 
 /* Five legal trays; of two trays all but b and then a shop are kept. */
 static const char text[] = "schema stall { width = 3m | 4m  use = home | shop  f = flag\n"
@@ -28,11 +27,8 @@ static struct {
 
 static int setup(void **state)
 {
-    const library_folders none = {0};
     (void)state;
-    assert_int_equal(compile_text("row.plan", text, strlen(text), &none, &opened.compilation), TN_OK);
-    assert_int_equal(
-        tn_module_load(opened.compilation.module, opened.compilation.module_size, NULL, &opened.module, NULL), TN_OK);
+    opened.module = load_plan(text, &opened.compilation);
     return 0;
 }
 

@@ -7,10 +7,9 @@
 
 #include <cmocka.h>
 
-#include "runtime/load.h"
 #include "runtime/plan/search/search.h"
-#include "tests/support/compile_file.h"
 #include "tests/support/fail_each.h"
+#include "tests/support/load_plan.h"
 
 /* Counts, sums, circles, distances: two of the three trays in the middle are 6' wide. */
 static const char text[] = "schema s { width = 3' | 6'  use = hall | room | stair }\n"
@@ -225,9 +224,7 @@ static void test_judged(void **state)
 static int setup(void **state)
 {
     static tn_compilation compilation;
-    const library_folders none = {0};
-    assert_int_equal(compile_text("rows.plan", text, strlen(text), &none, &compilation), TN_OK);
-    assert_int_equal(tn_module_load(compilation.module, compilation.module_size, NULL, &module, NULL), TN_OK);
+    module = load_plan(text, &compilation);
     assert_int_equal(tn_schema_new(module, 0, 0, &schema, NULL), TN_OK);
     *state = &compilation;
     return 0;

@@ -7,11 +7,10 @@
 
 #include <cmocka.h>
 
-#include "runtime/load.h"
 #include "runtime/plan/ways/library_ways.h"
 #include "runtime/plan/ways/projected.h"
-#include "tests/support/compile_file.h"
 #include "tests/support/fail_each.h"
+#include "tests/support/load_plan.h"
 
 /* A hall is open in two colours, a room is open in two or shut in two; shut trays are no neighbours. */
 static const char text[] = "schema row { use = hall | room }\n"
@@ -30,11 +29,8 @@ static struct {
 
 static int setup(void **state)
 {
-    const library_folders none = {0};
     (void)state;
-    assert_int_equal(compile_text("bays.plan", text, strlen(text), &none, &opened.compilation), TN_OK);
-    assert_int_equal(
-        tn_module_load(opened.compilation.module, opened.compilation.module_size, NULL, &opened.module, NULL), TN_OK);
+    opened.module = load_plan(text, &opened.compilation);
     assert_int_equal(tn_schema_new(opened.module, 0, 0, &opened.schema, NULL), TN_OK);
     assert_int_equal(tn_library_new(opened.schema, 1, NULL, &opened.library, NULL), TN_OK);
     uint32_t clause = opened.module->LIBRARY_records[1].clause_first + tn_library_generator(opened.library);

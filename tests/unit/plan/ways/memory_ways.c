@@ -7,11 +7,10 @@
 
 #include <cmocka.h>
 
-#include "runtime/load.h"
 #include "runtime/plan/ways/library_ways.h"
 #include "runtime/plan/ways/plan_ways.h"
-#include "tests/support/compile_file.h"
 #include "tests/support/fail_each.h"
+#include "tests/support/load_plan.h"
 
 static const char text[] = "schema s { use = hall | room }\n"
                            "rule right = tray(hall) or neighbour(tray(room), left)\n"
@@ -30,11 +29,8 @@ static struct {
 
 static int setup(void **state)
 {
-    const library_folders none = {0};
     (void)state;
-    assert_int_equal(compile_text("ways.plan", text, strlen(text), &none, &opened.compilation), TN_OK);
-    assert_int_equal(
-        tn_module_load(opened.compilation.module, opened.compilation.module_size, NULL, &opened.module, NULL), TN_OK);
+    opened.module = load_plan(text, &opened.compilation);
     assert_int_equal(tn_schema_new(opened.module, 0, 0, &opened.schema, NULL), TN_OK);
     assert_int_equal(tn_library_new(opened.schema, 0, NULL, &opened.library, NULL), TN_OK);
     opened.function = opened.module->CLAUSE_records[tn_library_generator(opened.library)].holds;
