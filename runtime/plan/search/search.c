@@ -61,28 +61,6 @@ static tn_status unroll_clauses(tn_plan_search *search, tn_error *error)
     return status;
 }
 
-static tn_status assert_narrow(tn_plan_search *search, tn_error *error)
-{
-    tn_circuit *circuit = search->at.circuit;
-    tn_signal gate = TN_SIGNAL_TRUE;
-    tn_status status = TN_OK;
-    if (search->within) {
-        tn_signal *begins = malloc((search->within->count + 1) * sizeof *begins);
-        status = begins ? tn_search_within(search, search->within, begins, &gate, error) : tn_fail_memory(error);
-        tn_circuit_assert(circuit, gate);
-        free(begins);
-    }
-    if (status == TN_OK && search->around) {
-        status = tn_search_around_gate(search, search->around, &gate, error);
-        tn_circuit_assert(circuit, gate);
-    }
-    if (status == TN_OK && search->without) {
-        status = tn_search_without(search, search->without, &gate, error);
-        tn_circuit_assert(circuit, gate);
-    }
-    return status;
-}
-
 /* Room for plans of so many trays. */
 static tn_status begin_length(tn_plan_search *search, uint32_t trays, tn_error *error)
 {
@@ -105,8 +83,8 @@ static tn_status unroll(tn_plan_search *search, tn_error *error)
     return status == TN_OK ? unroll_clauses(search, error) : status;
 }
 
-tn_status tn_search_open_on(tn_plan_search *search, const tn_letters *letters, const tn_search_other *map,
-                            tn_error *error)
+/* The gates of the search's plans, whose trays are another's letters, on the circuit of these. */
+static tn_status open_on(tn_plan_search *search, const tn_letters *letters, const tn_search_other *map, tn_error *error)
 {
     tn_search_length *at = &search->at;
     tn_status status = begin_length(search, letters->length, error);
@@ -118,6 +96,49 @@ tn_status tn_search_open_on(tn_plan_search *search, const tn_letters *letters, c
         status = unroll(search, error);
     if (status != TN_OK)
         tn_search_close(search);
+    return status;
+}
+
+/* That the other library does not keep the plan, by the gates of both over the same trays, as circuits are held to be
+ * equivalent (Brand: Verification of large synthesized designs, 1993); true if its gates cannot say that. */
+static tn_status keeps_not(tn_plan_search *search, const tn_search_other *other, tn_signal *gate, tn_error *error)
+{
+    tn_plan_search *from = other->search;
+    uint32_t clauses = from->record->clause_count, trays = search->at.trays;
+    *gate = TN_SIGNAL_TRUE;
+    if (trays < from->options.trays_min || trays > from->options.trays_max)
+        return TN_OK;
+    tn_circuit_go_on(search->at.circuit);
+    tn_status status = open_on(from, &search->at.letters, other, error);
+    if (status != TN_OK)
+        return status;
+    bool judged = false;
+    for (uint32_t i = 0; i < clauses; i++)
+        judged |= from->at.judged[i];
+    if (!judged)
+        *gate = tn_signal_not(tn_circuit_all(search->at.circuit, from->at.keeps, clauses)); /* sorts them */
+    return tn_circuit_status(search->at.circuit, error);
+}
+
+static tn_status assert_narrow(tn_plan_search *search, tn_error *error)
+{
+    tn_circuit *circuit = search->at.circuit;
+    tn_signal gate = TN_SIGNAL_TRUE;
+    tn_status status = TN_OK;
+    if (search->within) {
+        tn_signal *begins = malloc((search->within->count + 1) * sizeof *begins);
+        status = begins ? tn_search_within(search, search->within, begins, &gate, error) : tn_fail_memory(error);
+        tn_circuit_assert(circuit, gate);
+        free(begins);
+    }
+    if (status == TN_OK && search->around) {
+        status = tn_search_around_gate(search, search->around, &gate, error);
+        tn_circuit_assert(circuit, gate);
+    }
+    if (status == TN_OK && search->without) {
+        status = keeps_not(search, search->without, &gate, error);
+        tn_circuit_assert(circuit, gate);
+    }
     return status;
 }
 
@@ -283,6 +304,20 @@ static tn_status count_rejected(tn_plan_search *search, bool keeps, tn_error *er
     return TN_LIMIT;
 }
 
+/* Does the other library keep the search's plan? By the interpreter. */
+static tn_status other_keeps(tn_plan_search *search, const tn_search_other *other, bool *keeps, tn_error *error)
+{
+    uint32_t trays = search->at.trays;
+    tn_tray *mapped = tn_array_new((uint64_t)trays + 1, sizeof *mapped);
+    if (!mapped)
+        return tn_fail_memory(error);
+    for (uint32_t k = 0; k < trays; k++)
+        mapped[k] = other->trays ? other->trays[search->plan[k]] : search->plan[k];
+    tn_status status = tn_plan_search_keeps(other->search, mapped, trays, keeps, error);
+    free(mapped);
+    return status;
+}
+
 tn_status tn_search_judge(tn_plan_search *search, const tn_tray *trays, bool *keeps, tn_error *error)
 {
     tn_status status = tn_plan_vm_plan(search->vm, trays, search->at.trays, error);
@@ -294,7 +329,7 @@ tn_status tn_search_judge(tn_plan_search *search, const tn_tray *trays, bool *ke
                            tn_text(search->schema->module, tn_search_clause(search, i)->name));
     }
     if (status == TN_OK && *keeps && search->without) {
-        status = tn_search_other_keeps(search, search->without, keeps, error);
+        status = other_keeps(search, search->without, keeps, error);
         *keeps = !*keeps;
     }
     return status == TN_OK ? count_rejected(search, *keeps, error) : status;

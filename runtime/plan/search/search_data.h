@@ -90,16 +90,6 @@ tn_status tn_search_within(tn_plan_search *search, const tn_open_plan *open, tn_
 tn_status tn_search_around_gate(tn_plan_search *search, const tn_search_around *around, tn_signal *gate,
                                 tn_error *error);
 
-/* That the other library does not keep the plan; true if its gates cannot say that. */
-tn_status tn_search_without(tn_plan_search *search, const tn_search_other *other, tn_signal *gate, tn_error *error);
-
-/* Does the other library keep the search's plan? By the interpreter. */
-tn_status tn_search_other_keeps(tn_plan_search *search, const tn_search_other *other, bool *keeps, tn_error *error);
-
-/* The gates of the search's plans, whose trays are another's letters, on the circuit of these. */
-tn_status tn_search_open_on(tn_plan_search *search, const tn_letters *letters, const tn_search_other *map,
-                            tn_error *error);
-
 /* ---- values of a measure on the plans of the length that is open */
 
 typedef struct tn_search_values {
