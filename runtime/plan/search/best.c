@@ -20,10 +20,7 @@ static tn_status find_better(bettering *b, size_t from, bool *found, bool *undec
     b->search->at.assumed[0] = tn_search_values_from(&b->values, from);
     tn_error limit;
     tn_status status = tn_search_solve(b->search, 1, found, &limit);
-    *undecided = status == TN_LIMIT && limit.code == E_SEARCH_UNDECIDED;
-    if (status != TN_OK && !*undecided && error)
-        *error = limit;
-    return *undecided ? TN_OK : status;
+    return tn_search_unless_undecided(status, &limit, undecided, error);
 }
 
 /* Takes the plan that the solver has found, of a value from `from` on: *value is which. */

@@ -65,12 +65,12 @@ static tn_status begin_length(tn_plan_search *search, const tn_open_plan *open, 
     bool found = true;
     tn_status status = tn_search_within(search, open, begins, &all, error);
     if (status == TN_OK && !*any) {
-        status = tn_search_find(search, 0, any, NULL, error);
+        status = tn_search_find(search, 0, any, error);
         found = *any;
     }
     while (status == TN_OK && found && *parts < open->count) {
         search->at.assumed[0] = begins[*parts + 1];
-        status = tn_search_find(search, 1, &found, NULL, error);
+        status = tn_search_find(search, 1, &found, error);
         *parts += status == TN_OK && found;
     }
     return status;

@@ -67,6 +67,17 @@ static tn_status open_length(trading *t, uint32_t length, tn_error *error)
     return status;
 }
 
+/* As tn_search_find: what is not found out may be missing. */
+static tn_status find(trading *t, size_t count, bool *found, tn_error *error)
+{
+    tn_error limit;
+    bool undecided;
+    tn_status status = tn_search_find(t->search, count, found, &limit);
+    status = tn_search_unless_undecided(status, &limit, &undecided, error);
+    t->front->proven = t->front->proven && !undecided;
+    return status;
+}
+
 /* The values of the search's plan. */
 static tn_status find_values(trading *t, tn_error *error)
 {
@@ -87,13 +98,12 @@ static void assume_values(trading *t)
 /* From the search's plan to one that none betters, as far as that is found out. */
 static tn_status improve(trading *t, tn_error *error)
 {
-    bool found = true, undecided = false;
+    bool found = true;
     tn_status status = find_values(t, error);
     while (status == TN_OK && found) {
         assume_values(t);
         t->search->at.assumed[t->count] = better_than_this(t);
-        status = tn_search_find(t->search, t->count + 1, &found, &undecided, error);
-        t->front->proven = t->front->proven && !undecided;
+        status = find(t, t->count + 1, &found, error);
         if (status == TN_OK && found)
             status = find_values(t, error);
     }
@@ -127,24 +137,22 @@ static tn_status find_first(trading *t, tn_error *error)
 {
     tn_plan_search *search = t->search;
     size_t size = search->at.trays * sizeof *t->plan;
-    bool found = false;
+    bool found = false, undecided;
     tn_error limit;
     assume_values(t);
     search->at.fixed = t->count;
     search->has_plan = false;
     memcpy(t->plan, search->plan, size);
     tn_status status = tn_search_next_of_length(search, &found, &limit);
+    status = tn_search_unless_undecided(status, &limit, &undecided, error);
     search->at.fixed = 0;
     search->has_plan = false;
-    if (status == TN_OK && !found)
-        return tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a plan that was found is not found again");
-    if (status == TN_LIMIT && limit.code == E_SEARCH_UNDECIDED) {
+    if (undecided) {
         memcpy(search->plan, t->plan, size);
         t->front->proven = false;
-        return TN_OK;
+    } else if (status == TN_OK && !found) {
+        status = tn_fail(error, TN_INTERNAL, TN_CODE_NONE, "a plan that was found is not found again");
     }
-    if (status != TN_OK && error)
-        *error = limit;
     return status;
 }
 
@@ -160,11 +168,10 @@ static tn_status take_point(trading *t, tn_error *error)
 
 static tn_status search_length(trading *t, uint32_t length, tn_error *error)
 {
-    bool found = true, undecided = false;
+    bool found = true;
     tn_status status = open_length(t, length, error);
     while (status == TN_OK && found) {
-        status = tn_search_find(t->search, 0, &found, &undecided, error);
-        t->front->proven = t->front->proven && !undecided;
+        status = find(t, 0, &found, error);
         if (status == TN_OK && found)
             status = improve(t, error);
         if (status == TN_OK && found)

@@ -156,7 +156,7 @@ static tn_status nearest_of_length(distances *d, uint32_t *distance, tn_error *e
     bool found = false;
     uint32_t most = UINT32_MAX;
     tn_signal gate;
-    tn_status status = tn_search_find(d->search, 0, &found, NULL, error);
+    tn_status status = tn_search_find(d->search, 0, &found, error);
     if (status == TN_OK && found)
         status = measure(d, &most, error);
     if (status != TN_OK || !found)
@@ -168,7 +168,7 @@ static tn_status nearest_of_length(distances *d, uint32_t *distance, tn_error *e
         if (status != TN_OK || gate == TN_SIGNAL_FALSE)
             continue;
         d->search->at.assumed[0] = gate;
-        status = tn_search_find(d->search, 1, &found, NULL, error);
+        status = tn_search_find(d->search, 1, &found, error);
         if (status == TN_OK && found)
             *distance = cost;
     }

@@ -75,7 +75,7 @@ static tn_status draw_one(drawing *d, bool *found, tn_error *error)
 {
     tn_plan_search *search = d->search;
     prefer_values(search, d->seed, d->plans->count);
-    tn_status status = tn_search_find(search, 0, found, NULL, error);
+    tn_status status = tn_search_find(search, 0, found, error);
     if (status != TN_OK || !*found)
         return status;
     tn_search_exclude(search, search->plan);

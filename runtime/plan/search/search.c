@@ -335,27 +335,20 @@ tn_status tn_search_judge(tn_plan_search *search, const tn_tray *trays, bool *ke
     return status == TN_OK ? count_rejected(search, *keeps, error) : status;
 }
 
-tn_status tn_search_find(tn_plan_search *search, size_t count, bool *found, bool *undecided, tn_error *error)
+tn_status tn_search_find(tn_plan_search *search, size_t count, bool *found, tn_error *error)
 {
-    tn_error limit;
     tn_status status = TN_OK;
     bool kept = false;
     for (*found = true; status == TN_OK && *found && !kept;) {
-        status = tn_search_solve(search, count, found, &limit);
+        status = tn_search_solve(search, count, found, error);
         if (status != TN_OK || !*found)
             break;
         tn_letters_read(&search->at.letters, search->plan);
-        status = tn_search_judge(search, search->plan, &kept, &limit);
+        status = tn_search_judge(search, search->plan, &kept, error);
         if (status == TN_OK && !kept)
             tn_search_exclude(search, search->plan);
     }
     *found = status == TN_OK && *found;
-    if (undecided)
-        *undecided = status == TN_LIMIT && limit.code == E_SEARCH_UNDECIDED;
-    if (undecided && *undecided)
-        return TN_OK;
-    if (status != TN_OK && error)
-        *error = limit;
     return status;
 }
 
@@ -367,6 +360,14 @@ tn_status tn_plan_search_keeps(tn_plan_search *search, const tn_tray *trays, uin
     for (uint32_t i = 0; status == TN_OK && *keeps && i < search->record->clause_count; i++)
         status = judge_clause(search, i, keeps, error);
     return status;
+}
+
+tn_status tn_search_unless_undecided(tn_status status, const tn_error *found, bool *undecided, tn_error *error)
+{
+    *undecided = status == TN_LIMIT && found->code == E_SEARCH_UNDECIDED;
+    if (status != TN_OK && !*undecided && error)
+        *error = *found;
+    return *undecided ? TN_OK : status;
 }
 
 /* ---- asked */

@@ -97,14 +97,13 @@ void tn_search_conflict_clear(tn_search_conflict *conflict);
 /* Only plans that complete an open plan, whose trays are given. */
 void tn_plan_search_narrow(tn_plan_search *search, const tn_open_plan *open);
 
-/* Another library, and what fields, values and trays of the search's schema are in its own
- * (runtime/plan/library/diff.h).
- */
+/* Another library, and what fields, values and trays of the search's schema are in its own (tn_field_map and
+ * tn_tray_map, runtime/plan/library/diff.h). */
 typedef struct tn_search_other {
     tn_plan_search *search;
     const uint32_t *fields;
     const uint8_t *values; /* of a field's value, in the schema's order: which of the other field's */
-    const tn_tray *trays; /* NULL: the same */
+    const tn_tray *trays;  /* NULL: the same */
 } tn_search_other;
 
 /* Only plans that the other library does not keep. */

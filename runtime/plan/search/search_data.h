@@ -59,9 +59,12 @@ void tn_search_close(tn_plan_search *search);
 /* Is there a plan, with the first `count` of at.assumed? TN_LIMIT (E0833) if that is not found out. */
 tn_status tn_search_solve(tn_plan_search *search, size_t count, bool *found, tn_error *error);
 
-/* The same of plans that the interpreter keeps, too: the search's plan is one. *undecided (or NULL): that is not found
- * out, which is no error then. */
-tn_status tn_search_find(tn_plan_search *search, size_t count, bool *found, bool *undecided, tn_error *error);
+/* The same of plans that the interpreter keeps, too: the search's plan is one. */
+tn_status tn_search_find(tn_plan_search *search, size_t count, bool *found, tn_error *error);
+
+/* For who goes on without what is not found out: what it came to, *undecided instead of TN_LIMIT (E0833). Any other
+ * error that was found is handed on. */
+tn_status tn_search_unless_undecided(tn_status status, const tn_error *found, bool *undecided, tn_error *error);
 
 /* TN_LIMIT (E0833), of the length that is open. */
 tn_status tn_search_undecided(const tn_plan_search *search, tn_error *error);

@@ -45,16 +45,10 @@ tn_signal tn_search_values_from(tn_search_values *v, size_t from)
     return tn_circuit_any(v->search->at.circuit, v->gates, count);
 }
 
-static void value_of(const tn_search_values *v, int64_t steps, mpq_t value)
-{
-    mpz_set_si(mpq_numref(value), steps);
-    mpz_set_ui(mpq_denref(value), 1);
-    mpq_mul(value, value, v->sum->unit);
-}
-
 void tn_search_value(const tn_search_values *v, size_t at, mpq_t value)
 {
-    value_of(v, v->values.sums[at].adds, value);
+    mpq_set_si(value, v->values.sums[at].adds, 1);
+    mpq_mul(value, value, v->sum->unit);
 }
 
 tn_status tn_search_values_find(const tn_search_values *v, size_t from, size_t *at, tn_error *error)
