@@ -175,26 +175,21 @@ tn_status tn_house_tables_write(tn_house_tables_file *f, const tn_house *house, 
     return status;
 }
 
-/* The first failure. */
-static void keep(tn_status status, tn_status later, tn_error *error, const tn_error *found, tn_status *kept)
-{
-    if (status == TN_OK && later != TN_OK)
-        *error = *found;
-    *kept = status == TN_OK ? later : status;
-}
-
 tn_status tn_house_tables_close(tn_house_tables_file *f, bool complete, tn_error *error)
 {
     tn_status status = TN_OK;
-    tn_error found;
     for (int i = 0; i < TN_HOUSE_TABLES; i++)
         if (f->packed[i] && complete && status == TN_OK)
             status = tn_parquet_table_end(f->packed[i], error);
     for (int i = 0; i < TN_HOUSE_TABLES; i++) {
-        if (f->open[i] && ((complete && status == TN_OK) || !f->outputs[i].replaces))
-            keep(status, tn_output_commit(&f->outputs[i], &found), error, &found, &status);
-        else if (f->open[i])
+        bool good = complete && status == TN_OK;
+        if (f->open[i] && (good || !f->outputs[i].replaces)) {
+            tn_status written =
+                tn_output_commit(&f->outputs[i], status == TN_OK ? error : NULL); /* the first is said */
+            status = status == TN_OK ? written : status;
+        } else if (f->open[i]) {
             tn_output_discard(&f->outputs[i]);
+        }
         tn_parquet_table_free(f->packed[i]);
         free(f->columns[i]);
         free(f->paths[i]);

@@ -25,7 +25,7 @@ static bool put_apart(const tn_page *page, const char *number)
     return good;
 }
 
-/* A number to so many places; anything else as it is. Numbers without a point may be codes: they are left alone, unless
+/* A number to two places; anything else as it is. Numbers without a point may be codes: they are left alone, unless
  * others in their place have one. */
 static bool put_cell(const tn_page *page, const char *text, size_t size, bool decimal)
 {

@@ -337,12 +337,11 @@ tn_status tn_explain_sides(tn_plan_vm *vm, const tn_parts *parts, uint32_t part,
     c.operator= find_operator(text);
     if (!c.operator|| !read_code(&c, &parts->parts[part]))
         return TN_OK;
-    sides->percent =
-        is_percentage(text, c.operator) || is_percentage(behind_operator(&c), c.operator+ strlen(c.operator));
-    const char *behind = behind_operator(&c);
+    const char *behind = behind_operator(&c), *end = text + strlen(text);
+    sides->percent = is_percentage(text, c.operator) || is_percentage(behind, end);
     if (c.count > 1 && has_outside(text, c.operator, "/"))
         return find_share(&c, sides);
-    if (c.count > 1 && has_outside(behind, behind + strlen(behind), "/"))
+    if (c.count > 1 && has_outside(behind, end, "/"))
         return find_turned_share(&c, sides);
     return find_sums(&c, sides);
 }
