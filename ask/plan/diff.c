@@ -589,14 +589,6 @@ static tn_status compare_exactly(const comparing *c, bool *over, tn_error *limit
 
 /* ---- libraries that are searched */
 
-/* What the fields, values and trays of one library are in the other. */
-static tn_status make_map(const tn_schema *from, const tn_schema *to, uint32_t *fields, uint8_t *values,
-                          tn_tray **trays, tn_error *error)
-{
-    tn_status status = fields && values ? tn_tray_map(from, to, trays, error) : tn_fail_memory(error);
-    return status == TN_OK ? tn_field_map(from, to, fields, values, error) : status;
-}
-
 /* The first plans that one library keeps and the other does not. */
 static tn_status find_only(const comparing *c, const tn_ready_library *one, const tn_ready_library *other,
                            tn_compared_found *to, tn_error *error)
@@ -607,16 +599,17 @@ static tn_status find_only(const comparing *c, const tn_ready_library *one, cons
                                .lines = &to->plans,
                                .most = 1 + (r->has_sample ? (size_t)r->sample : TN_DIFF_SHOWN),
                                .notes_limit = true};
-    uint32_t *fields = calloc((size_t)one->schema->field_count + 1, sizeof *fields);
-    uint8_t *values = calloc((size_t)one->schema->value_count + 1, 1);
+    tn_field_map map = {0};
     tn_tray *trays = NULL;
     tn_plan_search *search = NULL, *without = NULL;
-    tn_status status = make_map(one->schema, other->schema, fields, values, &trays, error);
+    tn_status status = tn_tray_map(one->schema, other->schema, &trays, error);
+    if (status == TN_OK)
+        status = tn_field_map_make(one->schema, other->schema, &map, error);
     if (status == TN_OK)
         status = tn_plan_search_new(one->schema, one->index, &options, &search, error);
     if (status == TN_OK)
         status = tn_plan_search_new(other->schema, other->index, &options, &without, error);
-    const tn_search_other left_out = {without, fields, values, trays};
+    const tn_search_other left_out = {without, map.fields, map.values, trays};
     if (status == TN_OK) {
         tn_plan_search_leave_out(search, &left_out);
         status = tn_searched_list(c->session, search, &lines, error);
@@ -624,8 +617,7 @@ static tn_status find_only(const comparing *c, const tn_ready_library *one, cons
     }
     tn_plan_search_free(search);
     tn_plan_search_free(without);
-    free(fields);
-    free(values);
+    tn_field_map_clear(&map);
     free(trays);
     return status;
 }

@@ -53,8 +53,14 @@ bool tn_same_trays(const tn_schema *a, const tn_schema *b);
  * (E0803) where trays are not listed and fields or values come in another order. */
 tn_status tn_tray_map(const tn_schema *from, const tn_schema *to, tn_tray **map, tn_error *error);
 
-/* Which field of `to` each field of `from` is ([from->field_count]), and which of that field's values each value is
- * ([from->value_count]): both have room. As above. */
-tn_status tn_field_map(const tn_schema *from, const tn_schema *to, uint32_t *fields, uint8_t *values, tn_error *error);
+/* Which field of one schema each field of another is, and which of that field's values each value is. */
+typedef struct tn_field_map {
+    uint32_t *fields; /* [from->field_count] */
+    uint8_t *values;  /* [from->value_count] */
+} tn_field_map;
+
+/* TN_INVALID (E0508) where `to` has not the same. Clear it in any case. */
+tn_status tn_field_map_make(const tn_schema *from, const tn_schema *to, tn_field_map *map, tn_error *error);
+void tn_field_map_clear(tn_field_map *map);
 
 #endif

@@ -52,17 +52,28 @@ static tn_status map_values(const tn_schema *from, uint32_t field, const tn_sche
     return TN_OK;
 }
 
-tn_status tn_field_map(const tn_schema *from, const tn_schema *to, uint32_t *fields, uint8_t *values, tn_error *error)
+void tn_field_map_clear(tn_field_map *map)
 {
+    free(map->fields);
+    free(map->values);
+    *map = (tn_field_map){0};
+}
+
+tn_status tn_field_map_make(const tn_schema *from, const tn_schema *to, tn_field_map *map, tn_error *error)
+{
+    *map = (tn_field_map){calloc((size_t)from->field_count + 1, sizeof *map->fields),
+                          calloc((size_t)from->value_count + 1, 1)};
+    if (!map->fields || !map->values)
+        return tn_fail_memory(error);
     for (uint32_t f = 0; f < from->field_count; f++) {
         char what[300];
-        fields[f] = tn_schema_field(to, field_name(from, f));
-        if (fields[f] == UINT32_MAX || from->fields[f].kind != to->fields[fields[f]].kind) {
+        uint32_t field = map->fields[f] = tn_schema_field(to, field_name(from, f));
+        if (field == UINT32_MAX || from->fields[f].kind != to->fields[field].kind) {
             snprintf(what, sizeof what, "only one has a field `%.80s`%s", field_name(from, f),
-                     fields[f] == UINT32_MAX ? "" : " of this kind");
+                     field == UINT32_MAX ? "" : " of this kind");
             return differ(error, what);
         }
-        tn_status status = map_values(from, f, to, fields[f], values + from->value_start[f], error);
+        tn_status status = map_values(from, f, to, field, map->values + from->value_start[f], error);
         if (status != TN_OK)
             return status;
     }
@@ -79,8 +90,8 @@ static tn_status forbidden(const tn_schema *schema, tn_tray tray, tn_error *erro
     return ok ? differ(error, what) : tn_fail_memory(error);
 }
 
-static tn_status map_trays(const tn_schema *from, const tn_schema *to, const uint32_t *fields, const uint8_t *values,
-                           tn_tray *map, tn_error *error)
+static tn_status map_trays(const tn_schema *from, const tn_schema *to, const tn_field_map *fields, tn_tray *map,
+                           tn_error *error)
 {
     uint8_t *mapped = calloc((size_t)to->field_count + 1, 1);
     if (!mapped)
@@ -88,7 +99,7 @@ static tn_status map_trays(const tn_schema *from, const tn_schema *to, const uin
     tn_status status = TN_OK;
     for (tn_tray t = 0; status == TN_OK && t < from->tray_count; t++) {
         for (uint32_t f = 0; f < from->field_count; f++)
-            mapped[fields[f]] = values[from->value_start[f] + tn_tray_value(from, t, f)];
+            mapped[fields->fields[f]] = fields->values[from->value_start[f] + tn_tray_value(from, t, f)];
         map[t] = tn_schema_tray(to, mapped);
         if (map[t] == TN_NO_TRAY)
             status = forbidden(from, t, error);
@@ -99,13 +110,11 @@ static tn_status map_trays(const tn_schema *from, const tn_schema *to, const uin
 
 static tn_status map_one_way(const tn_schema *from, const tn_schema *to, tn_tray *map, tn_error *error)
 {
-    uint32_t *fields = calloc((size_t)from->field_count + 1, sizeof *fields);
-    uint8_t *values = calloc((size_t)from->value_count + 1, 1);
-    tn_status status = fields && values ? tn_field_map(from, to, fields, values, error) : tn_fail_memory(error);
+    tn_field_map fields;
+    tn_status status = tn_field_map_make(from, to, &fields, error);
     if (status == TN_OK && from->field_count == to->field_count)
-        status = map_trays(from, to, fields, values, map, error);
-    free(fields);
-    free(values);
+        status = map_trays(from, to, &fields, map, error);
+    tn_field_map_clear(&fields);
     return status;
 }
 
@@ -125,16 +134,14 @@ bool tn_same_trays(const tn_schema *a, const tn_schema *b)
 /* Are the fields and values of both in one order? *same: they are. TN_INVALID where one has others. */
 static tn_status compare_order(const tn_schema *from, const tn_schema *to, bool *same, tn_error *error)
 {
-    uint32_t *fields = calloc((size_t)from->field_count + 1, sizeof *fields);
-    uint8_t *values = calloc((size_t)from->value_count + 1, 1);
-    tn_status status = fields && values ? tn_field_map(from, to, fields, values, error) : tn_fail_memory(error);
+    tn_field_map map;
+    tn_status status = tn_field_map_make(from, to, &map, error);
     for (uint32_t f = 0; status == TN_OK && f < from->field_count; f++) {
-        *same = *same && fields[f] == f;
+        *same = *same && map.fields[f] == f;
         for (uint32_t v = 0; v < from->fields[f].value_count; v++)
-            *same = *same && values[from->value_start[f] + v] == v;
+            *same = *same && map.values[from->value_start[f] + v] == v;
     }
-    free(fields);
-    free(values);
+    tn_field_map_clear(&map);
     return status;
 }
 

@@ -97,8 +97,8 @@ void tn_search_conflict_clear(tn_search_conflict *conflict);
 /* Only plans that complete an open plan, whose trays are given. */
 void tn_plan_search_narrow(tn_plan_search *search, const tn_open_plan *open);
 
-/* Another library, and what fields, values and trays of the search's schema are in its own (tn_field_map and
- * tn_tray_map, runtime/plan/library/diff.h). */
+/* Another library, and what fields, values and trays of the search's schema are in its own (tn_field_map_make
+ * and tn_tray_map, runtime/plan/library/diff.h). */
 typedef struct tn_search_other {
     tn_plan_search *search;
     const uint32_t *fields;
