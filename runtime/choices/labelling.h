@@ -23,7 +23,7 @@
 /* Of a labelling: words of its nodes, and labels below each of them, so at most some 200 MB. */
 #define TN_LABELLING_ROOM (UINT32_C(1) << 23)
 
-/* How many combinations have a label. */
+/* How many combinations of some have a label. */
 typedef struct tn_label_count {
     uint32_t label, count;
 } tn_label_count;
@@ -46,6 +46,12 @@ static inline const uint32_t *tn_labelling_follow(const tn_labelling *labelling,
 {
     size_t size;
     return tn_interned(&labelling->nodes, node, &size) + 1;
+}
+
+/* How many combinations have a label. */
+static inline uint32_t tn_labelling_size(const tn_labelling *labelling, uint32_t label)
+{
+    return labelling->below[labelling->below_first[labelling->root] + label].count;
 }
 
 /* The combinations of a set, which is not lost, have the label 0. */

@@ -390,7 +390,7 @@ static void note_letters(tn_weighed *w)
     }
     for (uint32_t l = 0; made && l < w->letters; l++) {
         w->first[l] = made->first[l];
-        w->size[l] = made->below[made->below_first[made->root] + l].count;
+        w->size[l] = tn_labelling_size(made, l);
     }
 }
 
@@ -728,7 +728,7 @@ int64_t tn_weighed_rest(const tn_weighed *w, uint32_t state, uint32_t measure)
 
 uint32_t tn_weighed_letter(const tn_weighed *w, tn_tray tray)
 {
-    return w->letter_of ? w->letter_of[tray] : tn_labelling_at(w->kinds.made, tray, NULL);
+    return w->letter_of ? w->letter_of[tray] : tn_kind_of_tray(&w->kinds, tray);
 }
 
 static bool is_letter(void *context, uint32_t letter)

@@ -288,10 +288,9 @@ static bool finish(tn_classes *classes)
         return false;
     if (!classes->of_tray) {
         const tn_labelling *kinds = tn_kinds_of(&classes->kinds);
-        const tn_label_count *all = kinds->below + kinds->below_first[kinds->root];
         memcpy(classes->representative, kinds->first, kinds->labels * sizeof *kinds->first);
         for (uint32_t c = 0; c < kinds->labels; c++)
-            classes->size[c] = all[c].count;
+            classes->size[c] = tn_labelling_size(kinds, c);
         return true;
     }
     for (tn_tray t = classes->schema->tray_count; t-- > 0;) {

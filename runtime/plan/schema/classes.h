@@ -19,7 +19,7 @@ typedef struct tn_classes {
 
 static inline uint32_t tn_class_of(const tn_classes *classes, tn_tray tray)
 {
-    return classes->of_tray ? classes->of_tray[tray] : tn_labelling_at(tn_kinds_of(&classes->kinds), tray, NULL);
+    return classes->of_tray ? classes->of_tray[tray] : tn_kind_of_tray(&classes->kinds, tray);
 }
 
 /* The classes that the functions given, and those that they call, need. Free with tn_classes_free.

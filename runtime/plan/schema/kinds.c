@@ -14,12 +14,6 @@ static tn_status fail(const tn_schema *schema, tn_status status, tn_error *error
     return TN_LIMIT;
 }
 
-static void counts_of(const tn_schema *schema, uint32_t *counts)
-{
-    for (uint32_t f = 0; f < schema->field_count; f++)
-        counts[f] = schema->fields[f].value_count;
-}
-
 tn_status tn_kinds_by_kinds(tn_kinds *kinds, const tn_labelling *others, const uint32_t *numbers, tn_error *error)
 {
     tn_labelling *joined;
@@ -48,22 +42,19 @@ tn_status tn_kinds_by_spec(tn_kinds *kinds, uint32_t spec, tn_error *error)
 {
     enum { WORDS_MAX = TN_FIELDS_MAX * TN_FIELD_VALUES_MAX / 64 };
     const tn_schema *schema = kinds->schema;
-    uint32_t counts[TN_FIELDS_MAX];
     uint64_t mask[WORDS_MAX];
     tn_labelling *test;
-    counts_of(schema, counts);
     for (uint32_t word = 0; word < schema->mask_words; word++)
         mask[word] = tn_spec_word(schema->module, spec, word);
-    tn_status status = tn_labelling_of_box(counts, schema->field_count, mask, &test);
+    tn_status status = tn_labelling_of_box(schema->legal->values, schema->legal->fields, mask, &test);
     return split(kinds, status, test, error);
 }
 
 static tn_status by_field(tn_kinds *kinds, uint32_t field, const uint32_t *letters, tn_error *error)
 {
-    uint32_t counts[TN_FIELDS_MAX];
+    const tn_labelling *legal = kinds->schema->legal;
     tn_labelling *test;
-    counts_of(kinds->schema, counts);
-    tn_status status = tn_labelling_of_field(counts, kinds->schema->field_count, field, letters, &test);
+    tn_status status = tn_labelling_of_field(legal->values, legal->fields, field, letters, &test);
     return split(kinds, status, test, error);
 }
 

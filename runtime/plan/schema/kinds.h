@@ -17,6 +17,12 @@ static inline const tn_labelling *tn_kinds_of(const tn_kinds *kinds)
     return kinds->made ? kinds->made : kinds->schema->legal;
 }
 
+/* The kind of a tray. */
+static inline uint32_t tn_kind_of_tray(const tn_kinds *kinds, tn_tray tray)
+{
+    return tn_labelling_at(tn_kinds_of(kinds), tray, NULL);
+}
+
 /* Split by whether trays meet a specifier; by the lengths, or the values, that they have in a field (index within the
  * schema); by other kinds, of which so many that are given one number stay together (numbers NULL: none). E0803
  * (TN_LIMIT) where the diagram becomes too large. */

@@ -62,7 +62,7 @@ static inline int64_t tn_term_steps(const tn_sum_term *term, tn_tray tray)
 {
     if (!term->weight)
         return term->each;
-    return term->weight[term->kinds.schema ? tn_labelling_at(tn_kinds_of(&term->kinds), tray, NULL) : tray];
+    return term->weight[term->kinds.schema ? tn_kind_of_tray(&term->kinds, tray) : tray];
 }
 
 /* The sum is a multiple of a number (above 0, in nanometres to the sum's power) if its steps are one of this. */

@@ -151,6 +151,8 @@ static void check(const tn_labelling *l, const table *t, uint32_t labels)
     assert_int_equal(tn_labelling_find(l, pass, &all), number);
     tn_labelling_before(l, number, add, memset(passed, 0, sizeof passed));
     assert_memory_equal(passed, before, sizeof passed);
+    for (uint32_t k = 0; k < labels; k++)
+        assert_int_equal(tn_labelling_size(l, k), before[k]);
     for (uint32_t k = 0; k < 3; k++)
         next[k] = number;
     for (uint32_t c = TEST_COMBINATIONS, n = number; c-- > 0;) {
